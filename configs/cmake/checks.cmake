@@ -1,0 +1,47 @@
+# Rules that the build itself checks. All are part of the default target.
+
+# Include direction and doors: a scan of the #include lines.
+vfplan_sources(scanned
+    kernels/*.h kernels/*.cpp io/*.h io/*.cpp engine/*.h engine/*.cpp
+    tests/*.h tests/*/*.h tests/*/*.cpp)
+list(TRANSFORM scanned REPLACE "^${PROJECT_SOURCE_DIR}/" "" OUTPUT_VARIABLE scanned_relative)
+set(include_stamp ${PROJECT_BINARY_DIR}/generated/include_checks.stamp)
+set(include_list ${PROJECT_BINARY_DIR}/generated/include_checks.txt)
+list(JOIN scanned_relative "\n" scanned_text)
+file(CONFIGURE OUTPUT ${include_list} CONTENT "${scanned_text}\n" @ONLY)
+add_custom_command(OUTPUT ${include_stamp}
+    COMMAND ${CMAKE_COMMAND}
+        -D root=${PROJECT_SOURCE_DIR} -D files=${include_list}
+        -P ${CMAKE_CURRENT_LIST_DIR}/check_includes.cmake
+    COMMAND ${CMAKE_COMMAND} -E touch ${include_stamp}
+    DEPENDS ${scanned} ${include_list}
+        ${CMAKE_CURRENT_LIST_DIR}/doors.txt ${CMAKE_CURRENT_LIST_DIR}/check_includes.cmake
+    COMMENT "Checking include direction and library doors" VERBATIM)
+add_custom_target(include_checks ALL DEPENDS ${include_stamp})
+
+# Every header compiles alone: one source per header that includes it twice and nothing else.
+set(header_globs kernels/*.h io/*.h engine/*.h)
+if(VFPLAN_TESTS)
+    list(APPEND header_globs tests/*.h tests/*/*.h)
+endif()
+vfplan_sources(headers ${header_globs})
+set(header_sources)
+foreach(header IN LISTS headers)
+    file(RELATIVE_PATH header ${PROJECT_SOURCE_DIR} ${header})
+    string(MAKE_C_IDENTIFIER ${header} id)
+    set(source ${PROJECT_BINARY_DIR}/generated/headers/${id}.cpp)
+    file(CONFIGURE OUTPUT ${source} CONTENT "#include \"${header}\"\n#include \"${header}\"\n")
+    list(APPEND header_sources ${source})
+endforeach()
+if(header_sources)
+    add_library(header_checks OBJECT ${header_sources})
+    # The folder's library for its include paths; no optimisation, the objects are thrown away.
+    target_link_libraries(header_checks PRIVATE vfplan_flags vfplan_engine)
+    target_compile_options(header_checks PRIVATE -O0)
+    target_compile_definitions(header_checks PRIVATE VFPLAN_SOURCE_DIR="" VFPLAN_BINARY="")
+    if(VFPLAN_TESTS)
+        target_link_libraries(header_checks PRIVATE GTest::gtest)
+    endif()
+else()
+    add_custom_target(header_checks)
+endif()

@@ -1,0 +1,52 @@
+# Every third-party library, from the system (configs/packages/debian.txt lists the packages).
+# All are imported targets, so their headers count as SYSTEM and stay silent.
+
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(embree 3 REQUIRED)
+find_package(TBB REQUIRED)
+find_package(GDAL 3.4 REQUIRED)
+find_package(GEOS 3.10 REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+find_package(fmt REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(nlohmann_json REQUIRED)
+pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
+if(VFPLAN_TESTS)
+    find_package(GTest REQUIRED)
+endif()
+if(VFPLAN_BENCH)
+    find_package(benchmark REQUIRED)
+endif()
+
+# CGAL is header-only. Its CMake package would put -frounding-math on everything that links it,
+# so we name the headers and the two number libraries ourselves.
+find_path(VFPLAN_CGAL_INCLUDE CGAL/version.h REQUIRED)
+find_path(VFPLAN_GMP_INCLUDE gmp.h REQUIRED)
+find_path(VFPLAN_BOOST_INCLUDE boost/version.hpp REQUIRED)
+find_library(VFPLAN_GMP gmp REQUIRED)
+find_library(VFPLAN_MPFR mpfr REQUIRED)
+add_library(vfplan::cgal INTERFACE IMPORTED)
+target_include_directories(vfplan::cgal SYSTEM INTERFACE
+    ${VFPLAN_CGAL_INCLUDE} ${VFPLAN_GMP_INCLUDE} ${VFPLAN_BOOST_INCLUDE})
+target_link_libraries(vfplan::cgal INTERFACE ${VFPLAN_MPFR} ${VFPLAN_GMP})
+
+# HDF5, the serial C library. Where the OpenMPI flavour is installed too, it takes over
+# pkg-config and the plain names; it is not thread-safe, so it is never what we want.
+find_path(VFPLAN_HDF5_INCLUDE hdf5.h PATH_SUFFIXES hdf5/serial PATHS /usr/include
+          NO_DEFAULT_PATH)
+find_path(VFPLAN_HDF5_INCLUDE hdf5.h REQUIRED)
+find_library(VFPLAN_HDF5 NAMES hdf5_serial hdf5 REQUIRED)
+file(GLOB hdf5_config_headers ${VFPLAN_HDF5_INCLUDE}/H5pubconf*.h)
+foreach(header IN LISTS hdf5_config_headers)
+    file(STRINGS ${header} parallel REGEX "^#define H5_HAVE_PARALLEL")
+    if(parallel)
+        message(FATAL_ERROR "${VFPLAN_HDF5_INCLUDE} is a parallel HDF5, which is not thread-safe. "
+            "Install the serial one (Debian: libhdf5-dev) or set VFPLAN_HDF5_INCLUDE and VFPLAN_HDF5.")
+    endif()
+endforeach()
+add_library(vfplan::hdf5 INTERFACE IMPORTED)
+target_include_directories(vfplan::hdf5 SYSTEM INTERFACE ${VFPLAN_HDF5_INCLUDE})
+target_link_libraries(vfplan::hdf5 INTERFACE ${VFPLAN_HDF5})
