@@ -35,12 +35,12 @@ inline std::string missing_data_message(const std::filesystem::path& path) {
 
 // First line of a test that reads `path` (relative to data_dir()): skips the test when the file is
 // missing, or fails it under VFPLAN_REQUIRE_DATA=1.
-#define VFPLAN_NEED_DATA(path)                                                     \
-    do {                                                                           \
-        if (!std::filesystem::exists(::vfplan::test::data_dir() / (path))) {       \
-            if (::vfplan::test::require_data()) {                                  \
-                FAIL() << ::vfplan::test::missing_data_message(path);              \
-            }                                                                      \
-            GTEST_SKIP() << ::vfplan::test::missing_data_message(path);            \
-        }                                                                          \
+#define VFPLAN_NEED_DATA(path)                                               \
+    do {                                                                     \
+        if (!std::filesystem::exists(::vfplan::test::data_dir() / (path))) { \
+            if (::vfplan::test::require_data()) {                            \
+                FAIL() << ::vfplan::test::missing_data_message(path);        \
+            }                                                                \
+            GTEST_SKIP() << ::vfplan::test::missing_data_message(path);      \
+        }                                                                    \
     } while (false)

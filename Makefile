@@ -1,0 +1,60 @@
+# Everything in one word: `make run`, `make test`. CMake does the building (CMakePresets.json).
+
+SHELL := bash
+.SHELLFLAGS := -euo pipefail -c
+.DELETE_ON_ERROR:
+.DEFAULT_GOAL := help
+
+PRESET ?= release
+JOBS   ?= $(shell nproc)
+VFPLAN := build/$(PRESET)/vfplan
+
+SOURCES = $(shell find kernels io engine tests bench -name '*.cpp' -o -name '*.h' | LC_ALL=C sort)
+
+.PHONY: help setup build configure run test bench check-format format tidy clean
+
+help:  ## this list
+	@sed -nE 's/^([a-z-]+):.*  ## (.*)/\1|\2/p' Makefile | \
+	    while IFS='|' read -r name text; do printf '  make %-13s %s\n' "$$name" "$$text"; done
+	@echo "  PRESET=release|debug|asan|tsan chooses what build and test use; JOBS=$(JOBS) compilers at once"
+
+setup:  ## install the missing Debian packages (needs root, or says what to ask for)
+	@configs/packages/setup.sh
+
+configure: setup
+	@cmake --preset $(PRESET)
+
+build: configure  ## compile build/$PRESET/vfplan and its tests
+	@cmake --build --preset $(PRESET) -j $(JOBS)
+
+run: build runs/town.geojson  ## plan a generated town of 637 buildings; ends with where map.png is
+	@$(VFPLAN) run configs/town.toml --out runs/town
+	@echo "The picture: runs/town/map.png"
+
+runs/town.geojson: | build
+	@mkdir -p runs
+	@$(VFPLAN) generate town --seed 1 --out $@
+
+test: build  ## build, then run every test
+	@ctest --preset $(PRESET) -j $(JOBS)
+
+bench:  ## build and run the benchmarks
+	@configs/packages/setup.sh
+	@cmake --preset bench
+	@cmake --build --preset bench -j $(JOBS)
+	@for suite in build/bench/bench_*; do \
+	    if [[ -f $$suite && -x $$suite ]]; then "$$suite"; fi; \
+	done
+
+check-format:  ## fail when clang-format would change a source
+	@clang-format --dry-run -Werror $(SOURCES)
+	@echo "check-format: all sources are in shape."
+
+format:  ## let clang-format change the sources
+	@clang-format -i $(SOURCES)
+
+tidy: build  ## run clang-tidy over our sources
+	@printf '%s\n' $(filter %.cpp,$(SOURCES)) | xargs -r -n 1 -P $(JOBS) clang-tidy -p build/$(PRESET) --quiet
+
+clean:  ## remove build/; runs/ stays
+	@rm -rf build
