@@ -1,0 +1,118 @@
+#include "kernels/free_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace vfplan {
+namespace {
+
+// True when ab and cd have a point in common (touching counts).
+bool segments_meet(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
+    const double abc = orient(a, b, c);
+    const double abd = orient(a, b, d);
+    const double cda = orient(c, d, a);
+    const double cdb = orient(c, d, b);
+    if (abc == 0 && abd == 0) return false;  // along the wall: nothing is separated
+    return abc * abd <= 0 && cda * cdb <= 0;
+}
+
+std::int32_t cell_index(double metres, double cell_m, std::int32_t count) {
+    const double i = std::floor(metres / cell_m);
+    return static_cast<std::int32_t>(std::clamp(i, 0.0, static_cast<double>(count - 1)));
+}
+
+}  // namespace
+
+Grid make_grid(const Box& extent, double cell_m, double snap_m) {
+    Grid grid;
+    grid.cell_m = cell_m;
+    grid.origin = extent.min - Vec2d(snap_m / 4, snap_m / 4);
+    const Vec2d cells = (extent.max - grid.origin) / cell_m;
+    grid.nx = static_cast<std::int32_t>(std::ceil(cells.x() - 1e-9));
+    grid.ny = static_cast<std::int32_t>(std::ceil(cells.y() - 1e-9));
+    return grid;
+}
+
+Raster<std::uint8_t> free_cells(const Grid& grid, const std::vector<Ring>& free_region) {
+    // Every edge flips all cells to the right of it in the rows whose centre it passes.
+    Raster<std::uint8_t> flips(static_cast<std::size_t>(grid.size()), 0);
+    for (const Ring& ring : free_region) {
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            Vec2d a = ring[i];
+            Vec2d b = ring[(i + 1) % ring.size()];
+            if (a.y() == b.y()) continue;
+            if (a.y() > b.y()) std::swap(a, b);
+            const double from = (a.y() - grid.origin.y()) / grid.cell_m - 0.5;
+            const double to = (b.y() - grid.origin.y()) / grid.cell_m - 0.5;
+            const auto row_from = static_cast<std::int32_t>(std::max(0.0, std::ceil(from)));
+            const auto row_to = static_cast<std::int32_t>(
+                std::min(static_cast<double>(grid.ny), std::ceil(to)));
+            for (std::int32_t iy = row_from; iy < row_to; ++iy) {
+                const double y = grid.origin.y() + grid.cell_m * (iy + 0.5);
+                const double x = a.x() + (b.x() - a.x()) * ((y - a.y()) / (b.y() - a.y()));
+                const double column = std::ceil((x - grid.origin.x()) / grid.cell_m - 0.5);
+                if (column >= grid.nx) continue;
+                const auto ix = static_cast<std::int32_t>(std::max(0.0, column));
+                flips[static_cast<std::size_t>(grid.id(ix, iy))] ^= 1;
+            }
+        }
+    }
+    for (std::int32_t iy = 0; iy < grid.ny; ++iy) {
+        std::uint8_t inside = 0;
+        for (std::int32_t ix = 0; ix < grid.nx; ++ix) {
+            auto& cell = flips[static_cast<std::size_t>(grid.id(ix, iy))];
+            inside ^= cell;
+            cell = inside;
+        }
+    }
+    return flips;
+}
+
+Raster<std::uint8_t> cut_cells(const Grid& grid, const Raster<std::uint8_t>& free,
+                               const std::vector<Wall>& walls) {
+    Raster<std::uint8_t> cut(free.size(), 0);
+    constexpr std::array<std::array<std::int32_t, 2>, 4> ahead = {{{1, 0}, {0, 1}, {1, 1}, {-1, 1}}};
+    for (const Wall& wall : walls) {
+        const Vec2d a = wall.a - grid.origin;
+        const Vec2d b = wall.b - grid.origin;
+        const double c = grid.cell_m;
+        const std::int32_t row_from = cell_index(std::min(a.y(), b.y()) - 1.5 * c, c, grid.ny);
+        const std::int32_t row_to = cell_index(std::max(a.y(), b.y()) + 1.5 * c, c, grid.ny);
+        for (std::int32_t iy = row_from; iy <= row_to; ++iy) {
+            // The columns that the wall passes within 1.5 cells of this row.
+            const double lo = c * (iy - 1);
+            const double hi = c * (iy + 2);
+            double t0 = 0;
+            double t1 = 1;
+            if (a.y() != b.y()) {
+                const double u = (lo - a.y()) / (b.y() - a.y());
+                const double v = (hi - a.y()) / (b.y() - a.y());
+                t0 = std::clamp(std::min(u, v), 0.0, 1.0);
+                t1 = std::clamp(std::max(u, v), 0.0, 1.0);
+            }
+            const double x0 = a.x() + t0 * (b.x() - a.x());
+            const double x1 = a.x() + t1 * (b.x() - a.x());
+            const std::int32_t col_from = cell_index(std::min(x0, x1) - 1.5 * c, c, grid.nx);
+            const std::int32_t col_to = cell_index(std::max(x0, x1) + 1.5 * c, c, grid.nx);
+            for (std::int32_t ix = col_from; ix <= col_to; ++ix) {
+                const auto here = static_cast<std::size_t>(grid.id(ix, iy));
+                if (free[here] == 0) continue;
+                for (const auto& step : ahead) {
+                    if (!grid.inside(ix + step[0], iy + step[1])) continue;
+                    const auto there =
+                        static_cast<std::size_t>(grid.id(ix + step[0], iy + step[1]));
+                    if (free[there] == 0 || (cut[here] != 0 && cut[there] != 0)) continue;
+                    if (segments_meet(wall.a, wall.b,
+                                      grid.centre(static_cast<std::int64_t>(here)),
+                                      grid.centre(static_cast<std::int64_t>(there)))) {
+                        cut[here] = cut[there] = 1;
+                    }
+                }
+            }
+        }
+    }
+    return cut;
+}
+
+}  // namespace vfplan
