@@ -10,7 +10,7 @@ namespace vfplan {
 
 // Where the nearest outside cell lies, as an offset from the cell, and how far, in cells.
 // Everything beyond the grid is outside. Among equally near cells the one with the smallest
-// row, then column, relative to no tile or thread, is taken.
+// column, then row, is taken.
 struct DistanceField {
     Raster<std::int32_t> squared;   // 0 outside the domain
     Raster<std::int32_t> nearest_dx;

@@ -1,0 +1,92 @@
+#include "kernels/overlap.h"
+
+#include <algorithm>
+
+namespace vfplan {
+
+SeenTotal seen_total(const Pieces& pieces, const Seen* begin, const Seen* end) {
+    SeenTotal total;
+    for (const Seen* s = begin; s != end; ++s) {
+        total.length_m += pieces.length_m(s->piece);
+        total.angle_rad += static_cast<double>(s->angle_rad);
+    }
+    return total;
+}
+
+SeenJointly seen_jointly(const Pieces& pieces, const Seen* a, const Seen* a_end, const Seen* b,
+                         const Seen* b_end) {
+    SeenJointly joint;
+    while (a != a_end && b != b_end) {
+        if (a->piece < b->piece) {
+            ++a;
+        } else if (b->piece < a->piece) {
+            ++b;
+        } else {
+            joint.length_m += pieces.length_m(a->piece);
+            joint.angle_a_rad += static_cast<double>(a->angle_rad);
+            joint.angle_b_rad += static_cast<double>(b->angle_rad);
+            ++a;
+            ++b;
+        }
+    }
+    return joint;
+}
+
+double overlap(OverlapRatio ratio, const SeenTotal& a, const SeenTotal& b,
+               const SeenJointly& joint) {
+    const auto over = [](double part, double whole) { return whole > 0 ? part / whole : 0.0; };
+    switch (ratio) {
+        case OverlapRatio::min_len:
+            return over(joint.length_m, std::min(a.length_m, b.length_m));
+        case OverlapRatio::mean_len:
+            return over(2 * joint.length_m, a.length_m + b.length_m);
+        case OverlapRatio::union_len:
+            return over(joint.length_m, a.length_m + b.length_m - joint.length_m);
+        case OverlapRatio::union_ang:
+            return over(joint.angle_a_rad + joint.angle_b_rad, a.angle_rad + b.angle_rad);
+        case OverlapRatio::mean_ang:
+            return over(joint.angle_a_rad, 2 * a.angle_rad) +
+                   over(joint.angle_b_rad, 2 * b.angle_rad);
+    }
+    return 0;
+}
+
+double overlap(OverlapRatio ratio, const Pieces& pieces, const CoverageRow& a,
+               const CoverageRow& b) {
+    const Seen* a_end = a.data() + a.size();
+    const Seen* b_end = b.data() + b.size();
+    return overlap(ratio, seen_total(pieces, a.data(), a_end), seen_total(pieces, b.data(), b_end),
+                   seen_jointly(pieces, a.data(), a_end, b.data(), b_end));
+}
+
+void overlaps_of_row(const Pieces& pieces, const CoverageTable& table, const InvertedIndex& index,
+                     const std::vector<SeenTotal>& totals, OverlapRatio ratio, double threshold,
+                     std::int32_t row, OverlapScratch& scratch, std::vector<OverlapPair>& out) {
+    scratch.joint.resize(static_cast<std::size_t>(table.rows()));
+    scratch.touched.clear();
+    for (const Seen* s = table.row_begin(row); s != table.row_end(row); ++s) {
+        const auto p = static_cast<std::size_t>(s->piece);
+        const auto first = index.row.begin() + index.begin[p];
+        const auto last = index.row.begin() + index.begin[p + 1];
+        for (auto other = std::upper_bound(first, last, row); other != last; ++other) {
+            SeenJointly& joint = scratch.joint[static_cast<std::size_t>(*other)];
+            if (joint.length_m == 0) scratch.touched.push_back(*other);
+            joint.length_m += pieces.length_m(s->piece);
+        }
+    }
+    std::sort(scratch.touched.begin(), scratch.touched.end());
+    const bool by_angle = ratio == OverlapRatio::union_ang || ratio == OverlapRatio::mean_ang;
+    for (const std::int32_t other : scratch.touched) {
+        SeenJointly joint = scratch.joint[static_cast<std::size_t>(other)];
+        scratch.joint[static_cast<std::size_t>(other)] = {};
+        if (by_angle) {  // the angle from the other side is not in the index
+            joint = seen_jointly(pieces, table.row_begin(row), table.row_end(row),
+                                 table.row_begin(other), table.row_end(other));
+        }
+        const double o = overlap(ratio, totals[static_cast<std::size_t>(row)],
+                                 totals[static_cast<std::size_t>(other)], joint);
+        if (o > 0 && o >= threshold) out.push_back({row, other, o});
+    }
+}
+
+}  // namespace vfplan
