@@ -1,0 +1,49 @@
+// What a vector file holds, free of any library's types.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kernels/vec.h"
+#include "kernels/wall.h"
+
+namespace vfplan {
+
+using Line = std::vector<Vec2d>;
+
+// Rings without the repeated last point.
+struct Polygon {
+    Ring outer;
+    std::vector<Ring> holes;
+};
+
+// What a feature means for a site.
+enum class Role : std::uint8_t {
+    building,  // outdoor solid
+    wall,
+    window,
+    door,
+    obstacle,  // stands in the way, need not be scanned
+    room,      // a space that people call a room; no wall
+    outline,   // the free space itself; its rings are walls
+    drawing,   // leaves, swings, panes, labels: no wall
+};
+
+struct Feature {
+    std::int64_t number = 0;  // 1 for the first of its layer
+    std::string id;           // the source's own name for it, may be empty
+    Role role = Role::building;
+    std::vector<Polygon> polygons;
+    std::vector<Line> lines;
+};
+
+// All that was read from one file.
+struct FeatureSet {
+    std::vector<Feature> features;
+    std::string crs_wkt;         // empty when unknown
+    std::int64_t ignored = 0;    // points, empty geometries, features that are no building
+    std::vector<std::string> warnings;
+};
+
+}  // namespace vfplan

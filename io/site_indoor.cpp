@@ -1,0 +1,142 @@
+#include <algorithm>
+
+#include "io/planar.h"
+#include "io/site_reader.h"
+
+namespace vfplan {
+namespace {
+
+constexpr double doorway_half_m = 0.3;  // how far a doorway reaches to both sides of its line
+constexpr double gap_half_m = 0.6;      // openings up to twice this do not let the outside in
+constexpr double slit_half_m = 0.15;    // narrower is the inside of a wall, no place to stand
+constexpr double beside_line_m = 0.01;  // where the free side of a line wall is looked for
+constexpr double beside_solid_m = 0.1;  // rooms may be drawn a few centimetres off thick walls
+
+void append(std::vector<Polygon>& to, const std::vector<Polygon>& more) {
+    to.insert(to.end(), more.begin(), more.end());
+}
+
+// What lies inside when nothing that names rooms or an outline is given: the ground that a disc
+// of radius gap_half_m cannot reach from outside.
+std::vector<Polygon> enclosed(const std::vector<Line>& walls) {
+    std::vector<Polygon> shells;
+    for (Polygon p : planar::strips(walls, gap_half_m, false)) {
+        p.holes.clear();
+        shells.push_back(std::move(p));
+    }
+    return planar::grow(shells, -gap_half_m);
+}
+
+// The faces between walls that a person could stand in, without the slits inside of walls.
+std::vector<Polygon> standable_faces(const std::vector<Line>& walls, double snap_m,
+                                     double radius_m) {
+    const std::vector<Polygon> inside = enclosed(walls);
+    if (inside.empty()) return {};
+    const planar::Region region(inside);
+    Blocking lines;
+    lines.add(walls, WallClass::wall);
+    lines.add_rings(inside, WallClass::wall);
+    std::vector<Polygon> out;
+    for (const Polygon& face : planar::faces(planar::node(lines.lines, snap_m))) {
+        if (planar::inscribed_radius(face) < radius_m) continue;
+        const std::vector<Polygon> core = planar::grow({face}, -slit_half_m);
+        for (const Polygon& part : planar::grow(core, slit_half_m)) {
+            if (planar::inscribed_radius(part) < radius_m) continue;
+            if (!region.contains(core.front().outer.front())) continue;
+            out.push_back(part);
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+// Free space is the outline when there is one, else the named rooms and the doorways between
+// them, else the faces between walls. Solids (thick walls, obstacles) are taken out of it.
+void build_indoor(const Sorted& in, const SiteOptions& options, Site& site) {
+    const double snap = options.snap_m;
+    std::vector<Polygon> solids = in.polys(Role::wall);
+    append(solids, in.polys(Role::building));
+    std::vector<Polygon> obstacles = in.polys(Role::obstacle);
+    std::vector<Polygon> doorways;
+
+    Blocking blocking;
+    if (options.windows != WindowMode::opening) {
+        blocking.add(in.line(Role::window), WallClass::window);
+        blocking.add_rings(in.polys(Role::window), WallClass::window);
+    }
+    if (options.doors_open) {
+        append(doorways, in.polys(Role::door));
+        append(doorways, planar::strips(in.line(Role::door), doorway_half_m, true));
+    } else {
+        blocking.add(in.line(Role::door), WallClass::door);
+        append(solids, in.polys(Role::door));
+    }
+    if (options.windows != WindowMode::opening) append(solids, in.polys(Role::window));
+    const std::vector<Polygon> solid_walls = planar::unite(solids, snap);
+    const std::vector<Polygon> outlines = planar::unite(in.polys(Role::outline), snap);
+    blocking.add_rings(solid_walls, WallClass::wall);
+    blocking.add_rings(outlines, WallClass::wall);
+    blocking.add(in.line(Role::wall), WallClass::wall);
+    blocking.add(in.line(Role::outline), WallClass::wall);
+    blocking.add(in.line(Role::building), WallClass::wall);
+    blocking.add_rings(obstacles, WallClass::obstacle);
+    blocking.add(in.line(Role::obstacle), WallClass::obstacle);
+
+    std::vector<Polygon> space;
+    if (!outlines.empty()) {
+        space = outlines;
+    } else if (!in.polys(Role::room).empty()) {
+        space = in.polys(Role::room);
+        append(space, doorways);
+    } else {
+        std::vector<Line> closed = blocking.lines;  // doors and windows shut, to tell inside
+        closed.insert(closed.end(), in.line(Role::door).begin(), in.line(Role::door).end());
+        closed.insert(closed.end(), in.line(Role::window).begin(), in.line(Role::window).end());
+        space = standable_faces(closed, snap, options.stand_radius_m);
+        append(space, doorways);
+    }
+    site.buildings = static_cast<std::int64_t>(
+        in.polys(Role::room).empty() ? space.size() : in.polys(Role::room).size());
+    std::vector<Polygon> taken = solid_walls;
+    append(taken, obstacles);
+    const std::vector<Polygon> free =
+        planar::subtract(planar::unite(space, snap), taken, snap);
+    site.area_m2 = planar::area_m2(free);
+
+    const planar::Region standing(free);
+    const planar::Region solid(taken);
+    Box box;
+    for (Wall& wall : walls_from_lines(blocking, snap, site.counts)) {
+        const Vec2d e = (wall.b - wall.a).normalized();
+        const Vec2d to_left(-e.y(), e.x());
+        const Vec2d middle = (wall.a + wall.b) / 2;
+        const auto solid_beside = [&](double sign) {
+            return solid.contains(middle + sign * beside_line_m / 2 * to_left);
+        };
+        const bool thick = solid_beside(1) || solid_beside(-1);
+        const auto is_free = [&](double sign) {
+            return standing.contains(middle + sign * beside_line_m * to_left) ||
+                   (thick && standing.contains(middle + sign * beside_solid_m * to_left) &&
+                    !solid_beside(sign));
+        };
+        wall.free_side[left] = is_free(1);
+        wall.free_side[right] = is_free(-1);
+        wall.scanned = wall.cls != WallClass::obstacle &&
+                       !(wall.cls == WallClass::window && options.windows == WindowMode::ignore);
+        if (solid_beside(1) && solid_beside(-1)) {
+            ++site.counts.inside_solids;
+            continue;
+        }
+        box.add(wall.a);
+        box.add(wall.b);
+        site.walls.push_back(wall);
+    }
+    site.extent = box;
+    for (const Polygon& p : free) {
+        site.free_region.push_back(p.outer);
+        for (const Ring& hole : p.holes) site.free_region.push_back(hole);
+    }
+}
+
+}  // namespace vfplan

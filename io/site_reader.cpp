@@ -1,0 +1,142 @@
+#include "io/site_reader.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "io/planar.h"
+#include "io/vector_reader.h"
+#include "kernels/error.h"
+
+namespace vfplan {
+namespace {
+
+template <class F>
+void each_point(Feature& f, F&& change) {
+    for (Polygon& p : f.polygons) {
+        for (Vec2d& v : p.outer) change(v);
+        for (Ring& hole : p.holes) {
+            for (Vec2d& v : hole) change(v);
+        }
+    }
+    for (Line& line : f.lines) {
+        for (Vec2d& v : line) change(v);
+    }
+}
+
+Box bounds(Feature& f) {
+    Box box;
+    each_point(f, [&](const Vec2d& v) { box.add(v); });
+    return box;
+}
+
+// Keeps the features whose bounding box has its centre in the crop: none is cut in two.
+void crop(FeatureSet& set, const std::vector<double>& crop_m, CleaningCounts& counts) {
+    if (crop_m.empty()) return;
+    const Box keep{{crop_m[0], crop_m[1]}, {crop_m[2], crop_m[3]}};
+    counts.outside_crop = static_cast<std::int64_t>(std::erase_if(set.features, [&](Feature& f) {
+        const Box box = bounds(f);
+        return !keep.contains((box.min + box.max) / 2);
+    }));
+}
+
+void settle_invalid(FeatureSet& set, const SiteOptions& options, const std::string& name,
+                    CleaningCounts& counts) {
+    for (Feature& f : set.features) {
+        if (f.role == Role::drawing) continue;
+        std::vector<Polygon> valid;
+        for (Polygon& p : f.polygons) {
+            const std::string reason = planar::invalid_reason(p);
+            if (reason.empty()) {
+                valid.push_back(std::move(p));
+                continue;
+            }
+            switch (options.invalid) {
+                case InvalidPolygons::error:
+                    throw InputError(fmt::format(
+                        "{}: feature {}{}{}: {}; correct the polygon, or set site.invalid = "
+                        "\"repair\" or \"drop\"",
+                        name, f.number, f.id.empty() ? "" : ", id ", f.id, reason));
+                case InvalidPolygons::repair:
+                    for (Polygon& part : planar::repaired(p)) valid.push_back(std::move(part));
+                    ++counts.repaired;
+                    break;
+                case InvalidPolygons::drop:
+                    ++counts.dropped_invalid;
+                    break;
+            }
+        }
+        f.polygons = std::move(valid);
+    }
+}
+
+std::string problem_without_walls(const FeatureSet& set, const SiteOptions& options) {
+    if (set.features.empty() && !options.crop_m.empty()) {
+        return "no feature has its centre in site.crop_m; check the crop, it is in the file's "
+               "metres";
+    }
+    if (set.features.empty()) {
+        return options.kind == SiteKind::outdoor
+                   ? "no building polygons in it; check the file and site.layer"
+                   : "no walls, rooms or outlines in it; check the file and site.layer";
+    }
+    return options.kind == SiteKind::outdoor
+               ? "no walls are left after cleaning; if this is a floor plan set site.kind = "
+                 "\"indoor\""
+               : "no walls are left after cleaning; if this is a town set site.kind = \"outdoor\"";
+}
+
+}  // namespace
+
+SiteResult read_site(const std::filesystem::path& file, const SiteOptions& options) {
+    return build_site(
+        read_features(file, {options.kind, options.layer, options.crs, options.unit_m}), options,
+        file.string());
+}
+
+SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::string& name) {
+    SiteResult out;
+    Site& site = out.site;
+    out.warnings = set.warnings;
+    site.crs_wkt = set.crs_wkt;
+    site.counts.features = static_cast<std::int64_t>(set.features.size()) + set.ignored;
+    site.counts.ignored = set.ignored;
+    crop(set, options.crop_m, site.counts);
+    Box box;
+    for (Feature& f : set.features) {
+        const Box b = bounds(f);
+        box.add(b.min);
+        box.add(b.max);
+    }
+    if (set.features.empty()) {
+        throw InputError(fmt::format("{}: {}", name, problem_without_walls(set, options)));
+    }
+    settle_invalid(set, options, name, site.counts);
+    site.origin = {std::floor(box.min.x()), std::floor(box.min.y())};
+    Sorted sorted;
+    for (Feature& f : set.features) {
+        each_point(f, [&](Vec2d& v) { v -= site.origin; });
+        if (f.role == Role::drawing) ++site.counts.ignored;
+        const auto role = static_cast<std::size_t>(f.role);
+        for (Polygon& p : f.polygons) sorted.polygons[role].push_back(std::move(p));
+        for (Line& line : f.lines) sorted.lines[role].push_back(std::move(line));
+    }
+    if (options.kind == SiteKind::outdoor) {
+        build_outdoor(sorted, options, site);
+    } else {
+        build_indoor(sorted, options, site);
+    }
+    site.counts.walls = static_cast<std::int64_t>(site.walls.size());
+    if (site.walls.empty()) {
+        throw InputError(fmt::format("{}: {}", name, problem_without_walls(set, options)));
+    }
+    if (site.free_region.empty()) {
+        throw InputError(fmt::format("{}: nowhere in it can a station stand: the walls enclose no "
+                                     "space wider than {} m; give rooms or an outline, or check "
+                                     "site.unit_m",
+                                     name, 2 * options.stand_radius_m));
+    }
+    return out;
+}
+
+}  // namespace vfplan
