@@ -1,0 +1,74 @@
+// Candidates, stations and links: what the planner chooses from and what it chose.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "kernels/vec.h"
+
+namespace vfplan {
+
+// Why a point became a candidate.
+enum class CandidateKind : std::uint8_t {
+    joint,     // where ridges meet
+    middle,    // of a ridge without joints
+    ring,      // one of two opposite points of a closed ridge
+    end,       // of a ridge, where it adds coverage
+    split,     // inserted on a ridge for overlap
+    rescue,    // sees a piece that no other candidate covers
+    link,      // inserted between parts of the overlap graph
+    required,  // asked for by the user
+    existing,  // a scan that already exists
+};
+
+inline constexpr std::array<std::string_view, 9> candidate_kind_names = {
+    "joint", "middle", "ring", "end", "split", "rescue", "link", "required", "existing"};
+
+struct Candidate {
+    Vec2d at{0, 0};            // site frame, metres
+    std::int64_t cell = -1;    // of the grid; -1 for a point that the user gave
+    CandidateKind kind = CandidateKind::joint;
+    float vf_rad = 0;          // VF there
+};
+
+// How a piece fares, before and after planning.
+enum class PieceStatus : std::uint8_t {
+    covered,         // by a station of the main network
+    no_viewpoint,    // no free cell sees enough of it
+    off_candidates,  // a free cell sees it, but no candidate does
+    unreached,       // seen only from networks that cannot be joined to the main one
+};
+
+inline constexpr std::array<std::string_view, 4> piece_status_names = {"covered", "no_viewpoint",
+                                                                       "off_candidates",
+                                                                       "unreached"};
+
+// A chosen candidate.
+struct Station {
+    std::int32_t candidate = -1;
+    std::int32_t network = 0;   // 0 is the main one
+    std::int32_t order = 0;     // in which it was chosen, from 0
+    double new_length_m = 0;    // covered by it and by no station chosen before it
+    double seen_length_m = 0;   // covered by it
+};
+
+// Two stations that overlap by at least the threshold. Indices of stations, from < to.
+struct Link {
+    std::int32_t from = 0;
+    std::int32_t to = 0;
+    double overlap = 0;              // by the ratio of the job
+    std::array<double, 5> ratios{};  // all five, in the order of OverlapRatio
+};
+
+struct Plan {
+    std::vector<Station> stations;
+    std::vector<Link> links;
+    std::vector<PieceStatus> pieces;
+    // Pieces no two of which any candidate covers together: each needs a station of its own, so
+    // their number is a lower bound for every plan over these candidates.
+    std::vector<std::int32_t> bound_pieces;
+};
+
+}  // namespace vfplan
