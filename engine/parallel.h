@@ -1,0 +1,36 @@
+// The door to TBB: loops over indices, on as many threads as the job has.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+namespace vfplan {
+
+// A set of threads. Results must be written by index, so that their number changes nothing.
+class Threads {
+public:
+    // 0: SLURM_CPUS_PER_TASK, else the processors that this process may use, capped by the
+    // control group's quota (which TBB does not look at).
+    explicit Threads(int count = 0);
+    ~Threads();
+    Threads(const Threads&) = delete;
+    Threads& operator=(const Threads&) = delete;
+
+    int count() const { return count_; }
+
+    // Calls body(from, to) for disjoint parts of [0, n) of at least `grain` indices each.
+    // The first exception of a body is thrown again here.
+    void for_each(std::int64_t n, std::int64_t grain,
+                  const std::function<void(std::int64_t from, std::int64_t to)>& body) const;
+
+    // Runs inside the threads' arena, for libraries that use TBB themselves.
+    void run(const std::function<void()>& body) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+    int count_ = 1;
+};
+
+}  // namespace vfplan
