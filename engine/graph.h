@@ -1,0 +1,50 @@
+// The overlap graph: candidates (or stations) joined where they overlap enough.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/parallel.h"
+#include "kernels/overlap.h"
+
+namespace vfplan {
+
+// Undirected, neighbours ascending, as compressed sparse rows.
+struct Graph {
+    std::vector<std::int64_t> begin = {0};
+    std::vector<std::int32_t> to;
+    std::vector<double> overlap;
+
+    std::int32_t size() const { return static_cast<std::int32_t>(begin.size()) - 1; }
+    std::int64_t edges() const { return static_cast<std::int64_t>(to.size()) / 2; }
+    // Calls f(neighbour, overlap).
+    template <class F>
+    void each(std::int32_t v, F&& f) const {
+        for (auto i = static_cast<std::size_t>(begin[static_cast<std::size_t>(v)]);
+             i < static_cast<std::size_t>(begin[static_cast<std::size_t>(v) + 1]); ++i) {
+            f(to[i], overlap[i]);
+        }
+    }
+};
+
+Graph make_graph(std::int32_t nodes, const std::vector<OverlapPair>& pairs);
+
+// All pairs of rows with O >= threshold, through the inverted index, in parallel.
+Graph overlap_graph(const Threads& threads, const Pieces& pieces, const CoverageTable& table,
+                    OverlapRatio ratio, double threshold);
+
+// The part of a graph between `nodes` (ascending), renumbered by position.
+Graph induced(const Graph& graph, const std::vector<std::int32_t>& nodes);
+
+// Number of the connected component of each node, numbered by their first node.
+std::vector<std::int32_t> components(const Graph& graph);
+
+// Bridges, articulation nodes, and which nodes lie on a cycle.
+struct Cuts {
+    std::int64_t bridges = 0;
+    std::vector<std::uint8_t> articulation;
+    std::vector<std::uint8_t> on_cycle;
+};
+Cuts find_cuts(const Graph& graph);
+
+}  // namespace vfplan

@@ -1,0 +1,67 @@
+// From the coverage table to a connected network of stations (SPEC sections 6 and 7). Works on
+// the tables alone: no geometry.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/graph.h"
+#include "kernels/candidate.h"
+#include "kernels/coverage.h"
+#include "kernels/overlap.h"
+
+namespace vfplan {
+
+struct PlanOptions {
+    std::string method = "refined";  // greedy | refined
+    bool loops = true;
+    OverlapRatio ratio = OverlapRatio::mean_len;
+    double threshold = 0.3;
+};
+
+struct PlanInput {
+    const std::vector<Candidate>& candidates;
+    const Pieces& pieces;
+    const std::vector<PieceStatus>& reach;
+    const CoverageTable& table;
+    const Graph& graph;  // over the candidates, by the options' ratio and threshold
+};
+
+// What happened on the way.
+struct PlanReport {
+    std::int64_t greedy_stations = 0;      // Algorithm 1 alone
+    std::int64_t pruned_stations = 0;      // taken out again
+    std::int64_t before_loops = 0;         // VC before loops were closed
+    std::int64_t loose_before = 0;         // stations on no cycle, before and after
+    std::int64_t loose_after = 0;
+};
+
+// Stations numbered by network, then order of choice. Deterministic.
+Plan make_plan(const PlanInput& input, const PlanOptions& options, PlanReport& report);
+
+// --- the steps, each on the chosen candidates of one network -----------------------------------
+
+// A network in the making: candidates in the order in which they were chosen.
+using Chosen = std::vector<std::int32_t>;
+
+// Algorithm 1 with its gaps closed (SPEC section 6). Chooses among `members` (one connected
+// component, ascending) until every piece with wanted[piece] that they can cover is covered;
+// clears `wanted` of what it covers. `forced` members are taken first, joined by shortest paths.
+Chosen greedy_network(const PlanInput& input, const std::vector<std::int32_t>& members,
+                      const std::vector<std::int32_t>& forced,
+                      std::vector<std::uint8_t>& wanted);
+
+// Takes out, last chosen first, what neither coverage nor connection needs. `kept` (by candidate)
+// must stay; `count` holds how many chosen stations of all networks cover each piece.
+Chosen prune_network(const PlanInput& input, const Chosen& chosen,
+                     const std::vector<std::uint8_t>& kept, std::vector<std::int32_t>& count);
+
+// Adds the fewest candidates that put every station on a cycle, where there are any.
+Chosen close_loops(const PlanInput& input, const Chosen& chosen);
+
+// Pieces no two of which share a candidate, greedily: a lower bound (Plan::bound_pieces).
+std::vector<std::int32_t> independent_pieces(const PlanInput& input);
+
+}  // namespace vfplan
