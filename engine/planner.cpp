@@ -136,8 +136,9 @@ Plan make_plan(const PlanInput& in, const PlanOptions& options, PlanReport& repo
     }
     if (options.method != "greedy") {
         std::vector<std::int32_t> count(at(in.pieces.size()), 0);
-        for (const Chosen& chosen : networks) count_coverage(in, chosen, count);
         for (Chosen& chosen : networks) {
+            // With the networks before it, so that the main one never leans on a lesser one.
+            count_coverage(in, chosen, count);
             const std::size_t before = chosen.size();
             chosen = prune_network(in, chosen, kept, count);
             report.pruned_stations += static_cast<std::int64_t>(before - chosen.size());

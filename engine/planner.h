@@ -54,7 +54,8 @@ Chosen greedy_network(const PlanInput& input, const std::vector<std::int32_t>& m
                       std::vector<std::uint8_t>& wanted);
 
 // Takes out, last chosen first, what neither coverage nor connection needs. `kept` (by candidate)
-// must stay; `count` holds how many chosen stations of all networks cover each piece.
+// must stay; `count` holds how many stations of this network and those before it cover each
+// piece, and is kept up to date.
 Chosen prune_network(const PlanInput& input, const Chosen& chosen,
                      const std::vector<std::uint8_t>& kept, std::vector<std::int32_t>& count);
 

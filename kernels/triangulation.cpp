@@ -53,7 +53,6 @@ Triangulation triangulate(const std::vector<Wall>& walls, const Box& around, dou
     Points points(walls);
     Box box = around;
     for (const Vec2d& p : points.at) box.add(p);
-    const auto walls_end = static_cast<std::int32_t>(points.at.size());
     const Vec2d lo = box.min - Vec2d(margin_m, margin_m);
     const Vec2d hi = box.max + Vec2d(margin_m, margin_m);
     for (const Vec2d& corner : {lo, Vec2d(hi.x(), lo.y()), hi, Vec2d(lo.x(), hi.y())}) {
@@ -79,7 +78,6 @@ Triangulation triangulate(const std::vector<Wall>& walls, const Box& around, dou
         for (std::size_t i = 0; i < walls.size(); ++i) {
             const std::int32_t u = points.id(walls[i].a);
             const std::int32_t v = points.id(walls[i].b);
-            assert(u < walls_end && v < walls_end);
             cdt.insert_constraint(handle[static_cast<std::size_t>(u)],
                                   handle[static_cast<std::size_t>(v)]);
             wall_of_edge.emplace(edge_key(u, v), static_cast<std::int32_t>(i));
