@@ -97,9 +97,4 @@ std::vector<PieceStatus> rescue_pieces(CandidatePool& pool, const CandidateOptio
 // and views allow.
 void link_parts(CandidatePool& pool, const CandidateOptions& options, CandidateReport& report);
 
-// Shortest path over passable cells (8 neighbours) from `from` to the first cell that `goal`
-// accepts, both included; empty when there is none. Ties: the same for any machine.
-CellPath shortest_path(const Ground& ground, std::int64_t from,
-                       const std::function<bool(std::int64_t)>& goal);
-
 }  // namespace vfplan

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/generate_shapes.h"
 #include "engine/generate_util.h"
 
 namespace vfplan::generate {
@@ -40,59 +41,6 @@ int ring_of(double x, double y) {
         if (x <= c.w && y <= c.h) return r;
     }
     return rings;
-}
-
-// A rectangle with a direction; `along` is half its width, `deep` half its depth.
-struct Rect {
-    Vec2d c;
-    Vec2d d;
-    double along = 0;
-    double deep = 0;
-
-    double reach(const Vec2d& axis) const {
-        return along * std::abs(d.dot(axis)) + deep * std::abs(left_of(d).dot(axis));
-    }
-    Vec2d half_box() const { return {reach({1, 0}), reach({0, 1})}; }
-    Vec2d at(double s, double t) const { return c + s * d + t * left_of(d); }
-};
-
-bool closer_than(const Rect& a, const Rect& b, double gap) {
-    const Vec2d v = b.c - a.c;
-    const double far = a.along + a.deep + b.along + b.deep + gap;
-    if (std::abs(v.x()) > far || std::abs(v.y()) > far) return false;
-    for (const Vec2d& axis : {a.d, left_of(a.d), b.d, left_of(b.d)}) {
-        if (std::abs(v.dot(axis)) >= a.reach(axis) + b.reach(axis) + gap) return false;
-    }
-    return true;
-}
-
-using Line = std::vector<Vec2d>;
-
-// Chaikin's corner cutting: bends become curves without any trigonometry.
-Line rounded(Line line) {
-    for (int pass = 0; pass < 3; ++pass) {
-        Line next{line.front()};
-        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-            next.emplace_back(0.75 * line[i] + 0.25 * line[i + 1]);
-            next.emplace_back(0.25 * line[i] + 0.75 * line[i + 1]);
-        }
-        next.push_back(line.back());
-        line = std::move(next);
-    }
-    return line;
-}
-
-// `line` as a function: coordinate 1 - axis at the place where coordinate `axis` is v.
-double across(const Line& line, int axis, double v) {
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-        const double a = line[i][axis];
-        const double b = line[i + 1][axis];
-        if (v <= b || i + 2 == line.size()) {
-            return line[i][1 - axis] +
-                   (line[i + 1][1 - axis] - line[i][1 - axis]) * (v - a) / (b - a);
-        }
-    }
-    return 0;
 }
 
 struct Street {
@@ -270,42 +218,6 @@ private:
         });
     }
 
-    // Outlines fill their rectangle up to notches; counter-clockwise.
-    std::vector<Vec2d> outline(const Rect& r, char shape) {
-        const double a = r.along;
-        const double d = r.deep;
-        std::vector<Vec2d> local;
-        if (shape == 'L') {
-            const double x = a * random_.range(-0.1, 0.35);
-            const double y = d * random_.range(-0.1, 0.35);
-            local = {{-a, -d}, {a, -d}, {a, y}, {x, y}, {x, d}, {-a, d}};
-            if (random_.chance(0.5)) {  // mirrored
-                for (Vec2d& p : local) p.x() = -p.x();
-                std::reverse(local.begin(), local.end());
-            }
-        } else if (shape == 'T') {
-            const double x0 = a * random_.range(-0.6, -0.3);
-            const double x1 = a * random_.range(0.3, 0.6);
-            const double y = d * random_.range(0.0, 0.35);
-            local = {{-a, -d}, {a, -d}, {a, y}, {x1, y}, {x1, d}, {x0, d}, {x0, y}, {-a, y}};
-        } else if (shape == 'U') {
-            const double x = a * random_.range(0.5, 0.62);
-            const double y = d * random_.range(-0.35, -0.15);
-            local = {{-a, -d}, {a, -d}, {a, d}, {x, d}, {x, y}, {-x, y}, {-x, d}, {-a, d}};
-        } else if (shape == '+') {  // nave, transept, apse
-            const double y = d * 0.45;
-            const double x0 = a * 0.25;
-            const double x1 = a * 0.62;
-            local = {{-a, -y},       {x0, -y},      {x0, -d},     {x1, -d},      {x1, -y},
-                     {0.88 * a, -y}, {a, -0.5 * y}, {a, 0.5 * y}, {0.88 * a, y}, {x1, y},
-                     {x1, d},        {x0, d},       {x0, y},      {-a, y}};
-        } else {
-            local = {{-a, -d}, {a, -d}, {a, d}, {-a, d}};
-        }
-        for (Vec2d& p : local) p = r.at(p.x(), p.y());
-        return local;
-    }
-
     // The bounding box's centre decides about the crop, as it does for who measures the town.
     static int ring_of_outline(const std::vector<Vec2d>& outline) {
         Box box;
@@ -317,7 +229,7 @@ private:
     bool add(const Rect& r, char shape, double gap, double street_gap, double score,
              bool fixed = false) {
         if (!fits(r, gap, street_gap)) return false;
-        Lot lot{{r}, {outline(r, shape)}, 0, score, fixed};
+        Lot lot{{r}, {house_outline(random_, r, shape)}, 0, score, fixed};
         lot.ring = ring_of_outline(lot.outlines[0]);
         // A notch moves the box's centre, by less than the 3 m that fits() keeps.
         if (lot.ring != ring_of(r.c.x(), r.c.y())) return false;
@@ -397,16 +309,6 @@ private:
         return d;
     }
 
-    static Vec2d on(const Line& line, double s) {
-        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-            const Vec2d v = line[i + 1] - line[i];
-            const double length = v.norm();
-            if (s <= length || i + 2 == line.size()) return line[i] + v * (s / length);
-            s -= length;
-        }
-        return line.front();
-    }
-
     void houses_along(const Street& street, int side) {
         double length = 0;
         for (std::size_t i = 0; i + 1 < street.line.size(); ++i) {
@@ -415,7 +317,7 @@ private:
         const double garden = random_.range(2.5, 6.5);
         double s = random_.range(2, 8);
         while (s < length - 6) {
-            const Vec2d here = on(street.line, s);
+            const Vec2d here = along_line(street.line, s);
             const int ring =
                 std::min(ring_of(std::max(here.x(), 0.0), std::max(here.y(), 0.0)), rings - 1);
             const int n =
@@ -426,7 +328,7 @@ private:
             const double w =
                 n > 1 ? random_.range(6, 8) : std::sqrt(box_m2 * random_.range(0.7, 1.25));
             const double d = n > 1 ? random_.range(9, 12) : box_m2 / w;
-            const Vec2d chord = on(street.line, s + n * w) - here;
+            const Vec2d chord = along_line(street.line, s + n * w) - here;
             const double gap = random_.range(3.1, ring == rings - 1 ? 9 : 6);
             if (chord.norm() < 1) break;
             const Vec2d along = chord.normalized() * side;

@@ -1,77 +1,13 @@
 #include <algorithm>
-#include <limits>
 #include <map>
-#include <queue>
 
 #include "engine/candidates.h"
+#include "engine/flood.h"
 #include "engine/graph.h"
 #include "kernels/skeleton.h"
 
 namespace vfplan {
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-// A flood from many sources over passable cells, nearest first: distance in steps of 10 and 14,
-// so that it is a whole number, and the neighbour that it came from.
-class Flood {
-public:
-    explicit Flood(const Ground& ground)
-        : ground_(ground), distance_(ground.passable.size(), unreached),
-          from_(ground.passable.size(), -1), source_(ground.passable.size(), -1) {}
-
-    static constexpr std::int32_t unreached = std::numeric_limits<std::int32_t>::max();
-
-    void add_source(std::int64_t cell, std::int32_t name) {
-        if (distance_[at(cell)] == 0) return;
-        distance_[at(cell)] = 0;
-        source_[at(cell)] = name;
-        queue_.emplace(0, cell);
-    }
-
-    // Goes on until `visit` says stop at a cell.
-    template <class F>
-    void run(F&& visit) {
-        const Grid& grid = ground_.grid;
-        while (!queue_.empty()) {
-            const auto [d, cell] = queue_.top();
-            queue_.pop();
-            if (d != distance_[at(cell)]) continue;
-            if (visit(cell)) return;
-            for (std::size_t k = 0; k < 8; ++k) {
-                const std::int32_t x = grid.ix(cell) + around_dx[k];
-                const std::int32_t y = grid.iy(cell) + around_dy[k];
-                if (!grid.inside(x, y)) continue;
-                const std::int64_t n = grid.id(x, y);
-                if (ground_.passable[at(n)] == 0) continue;
-                const std::int32_t far = d + (k % 2 == 0 ? 10 : 14);
-                if (far >= distance_[at(n)]) continue;
-                distance_[at(n)] = far;
-                from_[at(n)] = cell;
-                source_[at(n)] = source_[at(cell)];
-                queue_.emplace(far, n);
-            }
-        }
-    }
-
-    std::int32_t distance(std::int64_t cell) const { return distance_[at(cell)]; }
-    std::int32_t source(std::int64_t cell) const { return source_[at(cell)]; }
-    // From the source to the cell.
-    CellPath path_to(std::int64_t cell) const {
-        CellPath path;
-        for (std::int64_t c = cell; c >= 0; c = from_[at(c)]) path.push_back(c);
-        std::reverse(path.begin(), path.end());
-        return path;
-    }
-
-private:
-    using Entry = std::pair<std::int32_t, std::int64_t>;
-    const Ground& ground_;
-    std::vector<std::int32_t> distance_;
-    std::vector<std::int64_t> from_;
-    std::vector<std::int32_t> source_;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
-};
 
 std::vector<std::int32_t> parts_of(const CandidatePool& pool, const CandidateOptions& options) {
     CoverageTable table;
@@ -93,19 +29,6 @@ struct Meeting {
 
 }  // namespace
 
-CellPath shortest_path(const Ground& ground, std::int64_t from,
-                       const std::function<bool(std::int64_t)>& goal) {
-    Flood flood(ground);
-    flood.add_source(from, 0);
-    std::int64_t found = -1;
-    flood.run([&](std::int64_t cell) {
-        if (!goal(cell)) return false;
-        found = cell;
-        return true;
-    });
-    return found < 0 ? CellPath{} : flood.path_to(found);
-}
-
 void link_parts(CandidatePool& pool, const CandidateOptions& options, CandidateReport& report) {
     constexpr int rounds_most = 6;
     const Ground& ground = pool.ground();
@@ -113,12 +36,12 @@ void link_parts(CandidatePool& pool, const CandidateOptions& options, CandidateR
     report.parts_before_links = count_parts(part);
     std::map<std::pair<std::int64_t, std::int64_t>, bool> tried;
     for (int round = 0; round < rounds_most && count_parts(part) > 1; ++round) {
-        Flood flood(ground);
+        Flood flood(ground.grid, ground.passable);
         for (std::size_t i = 0; i < pool.candidates().size(); ++i) {
             const std::int64_t cell = pool.candidates()[i].cell;
             if (cell >= 0) flood.add_source(cell, part[i]);
         }
-        flood.run([](std::int64_t) { return false; });
+        flood.run();
         std::map<std::pair<std::int32_t, std::int32_t>, Meeting> meetings;
         const Grid& grid = ground.grid;
         for (std::int64_t cell = 0; cell < grid.size(); ++cell) {

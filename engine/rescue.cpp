@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "engine/candidates.h"
+#include "engine/flood.h"
 #include "kernels/angle.h"
 
 namespace vfplan {
@@ -174,6 +175,11 @@ std::vector<PieceStatus> rescue_pieces(CandidatePool& pool, const CandidateOptio
     // One cell often serves many pieces: take cells in the order of pieces, skip what is covered
     // by then.
     std::vector<PieceStatus> reach(covered.size(), PieceStatus::covered);
+    Flood ways_out(pool.ground().grid, pool.ground().passable);
+    for (const Candidate& c : pool.candidates()) {
+        if (c.cell >= 0) ways_out.add_source(c.cell, 0);
+    }
+    ways_out.run();
     std::vector<CellPath> ways;
     for (std::size_t i = 0; i < open.size(); ++i) {
         if (cell_of[i] < 0) {
@@ -182,11 +188,7 @@ std::vector<PieceStatus> rescue_pieces(CandidatePool& pool, const CandidateOptio
         }
         ++report.rescued_pieces;
         if (covered[at(open[i])] != 0) continue;
-        CellPath way;
-        if (!pool.has(cell_of[i]) && pool.ground().passable[at(cell_of[i])] != 0) {
-            way = shortest_path(pool.ground(), cell_of[i],
-                                [&](std::int64_t c) { return pool.has(c); });
-        }
+        CellPath way = ways_out.path_to(cell_of[i]);
         pool.add({cell_of[i]}, CandidateKind::rescue);
         for (const Seen& s : pool.row_at(cell_of[i])) covered[at(s.piece)] = 1;
         if (way.size() > 1) ways.push_back(std::move(way));
