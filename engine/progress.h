@@ -1,0 +1,59 @@
+// What is going on, for people: a bar on a terminal, lines in a log, and the time each stage took.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vfplan {
+
+// Wall and processor seconds of the process since its start or a moment of it.
+struct Moment {
+    double wall_s = 0;
+    double cpu_s = 0;
+    static Moment now();
+};
+
+struct StageTime {
+    std::string name;
+    double wall_s = 0;
+    double cpu_s = 0;
+};
+
+// Standard error only. advance() may be called from any thread, the rest from one.
+class Progress {
+public:
+    explicit Progress(bool quiet);
+
+    // Ends the stage before it. `total` 0: a stage without steps.
+    void stage(const std::string& name, std::int64_t total = 0);
+    void advance(std::int64_t steps);
+    void note(const std::string& text);  // a line of its own
+    void finish();                       // ends the last stage
+    const std::vector<StageTime>& times() const { return times_; }
+    double wall_s() const { return Moment::now().wall_s - begin_.wall_s; }
+
+private:
+    void show(std::int64_t done, bool last);
+
+    bool quiet_;
+    bool terminal_;
+    Moment begin_;
+    Moment stage_begin_;
+    std::string name_;
+    std::int64_t total_ = 0;
+    std::atomic<std::int64_t> done_{0};
+    std::mutex showing_;
+    double shown_at_s_ = 0;
+    std::int64_t shown_percent_ = -1;
+    std::vector<StageTime> times_;
+};
+
+// Highest resident memory of this process so far, in MB.
+double peak_rss_mb();
+
+}  // namespace vfplan

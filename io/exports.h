@@ -1,0 +1,16 @@
+// The plan as plain tables for other programs: CSV and GeoJSON, in the input's coordinates.
+#pragma once
+
+#include <string>
+
+#include "io/tables.h"
+
+namespace vfplan {
+
+// Texts of the run directory's files (docs/file_format.md); equal plans give equal bytes.
+std::string stations_csv(const CoverageTables& tables, const Plan& plan);
+std::string stations_geojson(const CoverageTables& tables, const Plan& plan);
+std::string links_csv(const Plan& plan);
+std::string pieces_csv(const CoverageTables& tables, const Plan& plan);
+
+}  // namespace vfplan
