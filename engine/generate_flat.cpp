@@ -243,7 +243,7 @@ public:
             const RingMm ring = plan_.outline(room);
             const std::string name =
                 room == hall ? "hall" : names_[static_cast<std::size_t>(room) - 1].first;
-            json.polygon("room", "\"label\":\"" + name + "\"", ring);
+            json.polygon("room", R"("label":")" + name + '"', ring);
             area += area_m2(ring);
             for (const PointMm& p : ring)
                 box.add({static_cast<double>(p.x) / 1000, static_cast<double>(p.y) / 1000});

@@ -1,6 +1,7 @@
 #include "engine/generate_shapes.h"
 
 #include <algorithm>
+#include <array>
 
 namespace vfplan::generate {
 
@@ -8,10 +9,10 @@ bool closer_than(const Rect& a, const Rect& b, double gap) {
     const Vec2d v = b.c - a.c;
     const double far = a.along + a.deep + b.along + b.deep + gap;
     if (std::abs(v.x()) > far || std::abs(v.y()) > far) return false;
-    for (const Vec2d& axis : {a.d, left_of(a.d), b.d, left_of(b.d)}) {
-        if (std::abs(v.dot(axis)) >= a.reach(axis) + b.reach(axis) + gap) return false;
-    }
-    return true;
+    const std::array<Vec2d, 4> axes{a.d, left_of(a.d), b.d, left_of(b.d)};
+    return std::none_of(axes.begin(), axes.end(), [&](const Vec2d& axis) {
+        return std::abs(v.dot(axis)) >= a.reach(axis) + b.reach(axis) + gap;
+    });
 }
 
 std::vector<Vec2d> house_outline(Random& random, const Rect& r, char shape) {

@@ -163,7 +163,8 @@ private:
 
     void districts() {
         for (int k = 0; k < 9; ++k) {
-            const Vec2d middle{165 + 325.0 * (k % 3), 110 + 300.0 * (k / 3)};
+            const int row = k / 3;
+            const Vec2d middle{165 + 325.0 * (k % 3), 110 + 300.0 * row};
             const Vec2d d = direction(random_.below(direction_count));
             const Rect frame{middle, d, 320, 320};
             const double bend = random_.range(-30, 30);

@@ -1,0 +1,182 @@
+#include "engine/cli.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "engine/generate.h"
+#include "engine/pipeline.h"
+#include "io/files.h"
+#include "kernels/error.h"
+#include "vfplan_version.h"
+
+namespace vfplan {
+namespace {
+
+constexpr const char* run_help =
+    R"(Plans static-LiDAR stations for a site. Your own GeoJSON in five minutes:
+
+  1. Write job.toml:        preset = "outdoor"        # or "indoor"
+                            [site]
+                            input = "my_town.geojson" # metres; polygons are buildings
+  2. vfplan run job.toml --out my_town
+  3. Look at my_town/map.png; stations are in my_town/stations.csv.
+
+Try --dry-run first for a large site. Degrees: add crs = "utm" under [site].
+All parameters: docs/parameters.md; any of them: --set field.cell_m=2)";
+
+constexpr const char* exit_codes =
+    "Exit codes: 0 done; 1 verify said no; 2 usage or configuration; 3 input data; 4 reading or "
+    "writing; 75 stopped early, resumable.";
+
+// Options that several commands share.
+struct Shared {
+    std::string job;
+    std::string dir;
+    std::string out;
+    std::vector<std::string> sets;
+    int threads = 0;
+    bool quiet = false;
+    bool fresh = false;
+    bool dry_run = false;
+};
+
+void add_sets(CLI::App& app, Shared& s, const char* which) {
+    app.add_option("--set", s.sets, which)->type_name("KEY=VALUE")->take_all()->expected(1);
+}
+
+void add_common(CLI::App& app, Shared& s) {
+    app.add_option("--threads", s.threads, "Threads; default: what the machine grants")
+        ->check(CLI::Range(1, 4096));
+    app.add_flag("-q,--quiet", s.quiet, "No progress, no summary");
+}
+
+void add_job(CLI::App& app, Shared& s) {
+    app.add_option("JOB", s.job, "Job file (TOML); configs/ has examples")->required();
+    app.add_option("--out", s.out, "Run directory; default: the job file's name without .toml");
+    add_sets(app, s, "Replaces a parameter of the job file; may be repeated");
+    app.add_flag("--fresh", s.fresh, "Make everything again; default: go on where a run stopped");
+    app.add_flag("--dry-run", s.dry_run, "Check the job and the site, print cells, memory and disk");
+    add_common(app, s);
+}
+
+int run_or_precompute(const Shared& s, bool plan) {
+    Progress progress(s.quiet);
+    const Config config = read_config(s.job, s.sets);
+    JobOptions options;
+    options.out = s.out.empty() ? std::filesystem::path(s.job).stem() : std::filesystem::path(s.out);
+    if (s.out.empty() && options.out.extension().empty() &&
+        std::filesystem::path(s.job) == options.out) {
+        options.out += ".run";
+    }
+    options.threads = s.threads;
+    options.fresh = s.fresh;
+    options.dry_run = s.dry_run;
+    options.plan = plan;
+    const std::string text = run_job(config, options, progress);
+    if (!s.quiet) fmt::print("{}", text);
+    return 0;
+}
+
+int generate(const GenerateOptions& options, const std::string& out) {
+    const GenerateReport report = generate_site(options);
+    if (out.empty() || out == "-") {
+        fmt::print("{}", report.geojson);
+        fmt::print(stderr, "{}", report.summary);
+        return 0;
+    }
+    const std::filesystem::path file(out);
+    if (file.has_parent_path()) {
+        std::error_code error;
+        std::filesystem::create_directories(file.parent_path(), error);
+    }
+    write_text(file, report.geojson);
+    fmt::print("{}", report.summary);
+    return 0;
+}
+
+int verify(const Shared& s) {
+    Progress progress(true);
+    const VerifyResult r = verify_run(s.dir, s.threads, progress);
+    if (!s.quiet) fmt::print("{}", r.text);
+    fmt::print("{}\n", r.good ? "yes: the plan holds" : "NO: the plan does not hold");
+    return r.good ? 0 : 1;
+}
+
+int dispatch(int argc, char** argv) {
+    CLI::App app{"Plans connected networks of static-LiDAR stations from city maps and floor "
+                 "plans.",
+                 "vfplan"};
+    app.require_subcommand(1);
+    app.set_version_flag("--version", fmt::format("vfplan {} ({}, {})", version, version_git,
+                                                  build_type));
+    app.footer(exit_codes);
+    Shared s;
+    GenerateOptions site;
+    std::string site_out;
+
+    CLI::App* run = app.add_subcommand("run", run_help);
+    add_job(*run, s);
+    run->footer(exit_codes);
+    CLI::App* precompute = app.add_subcommand(
+        "precompute", "Field and coverage tables only; plan DIR or run goes on from there");
+    add_job(*precompute, s);
+    CLI::App* plan = app.add_subcommand(
+        "plan", "Plans again from a run directory's tables alone, without geometry");
+    plan->add_option("DIR", s.dir, "Run directory")->required();
+    add_sets(*plan, s, "Replaces a parameter of plan, overlap or output");
+    add_common(*plan, s);
+    CLI::App* check = app.add_subcommand(
+        "verify", "Looks again from every station with the exact kernel; says yes or no");
+    check->add_option("DIR", s.dir, "Run directory")->required();
+    add_common(*check, s);
+    CLI::App* make = app.add_subcommand("generate", "Writes a synthetic site as GeoJSON");
+    make->add_option("KIND", site.kind, "town | city | flat")->required();
+    make->add_option("--seed", site.seed, "Another seed, another site")->capture_default_str();
+    make->add_option("--size-km", site.size_km, "city: side of the square")->capture_default_str();
+    make->add_option("--rooms", site.rooms, "flat: number of rooms")->capture_default_str();
+    make->add_option("--out", site_out, "GeoJSON file; default: standard output");
+    CLI::App* list = app.add_subcommand("parameters", "Prints all parameters as Markdown");
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& e) {
+        return app.exit(e);  // --help, --version
+    } catch (const CLI::ParseError& e) {
+        throw UsageError(fmt::format("{}; see vfplan --help", e.what()));
+    }
+    if (run->parsed()) return run_or_precompute(s, true);
+    if (precompute->parsed()) return run_or_precompute(s, false);
+    if (check->parsed()) return verify(s);
+    if (make->parsed()) return generate(site, site_out);
+    if (list->parsed()) {
+        fmt::print("{}", parameters_markdown());
+        return 0;
+    }
+    Progress progress(s.quiet);
+    const std::string text = plan_again(s.dir, s.sets, s.threads, progress);
+    if (!s.quiet) fmt::print("{}", text);
+    return 0;
+}
+
+}  // namespace
+
+int run_cli(int argc, char** argv) {
+    try {
+        return dispatch(argc, argv);
+    } catch (const Error& e) {
+        fmt::print(stderr, "vfplan: {}\n", e.what());
+        return static_cast<int>(e.code());
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "vfplan: out of memory; choose larger cells or a crop, --dry-run tells "
+                           "what a job needs\n");
+        return static_cast<int>(Exit::io);
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "vfplan: {}; this is a bug, please report it with the job file\n",
+                   e.what());
+        return 70;
+    }
+}
+
+}  // namespace vfplan

@@ -1,0 +1,230 @@
+#include "engine/pipeline.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <ctime>
+
+#include "engine/plan_stage.h"
+#include "engine/tables_stage.h"
+#include "io/files.h"
+#include "io/sha256.h"
+#include "kernels/error.h"
+#include "vfplan_version.h"
+
+namespace vfplan {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string input_hash(const Config& config) {
+    std::error_code error;
+    for (const std::string* path : {&config.site.input, &config.plan.forbidden}) {
+        if (path->empty() || std::filesystem::exists(*path, error)) continue;
+        throw IoError(fmt::format("{}: no such file; check {} in the job file, it is relative to it",
+                                  *path,
+                                  path == &config.site.input ? "site.input" : "plan.forbidden"));
+    }
+    std::string hash;
+    if (std::filesystem::is_regular_file(config.site.input)) {
+        hash = sha256_of_file(config.site.input);
+    }
+    if (!config.plan.forbidden.empty()) hash += sha256_of_file(config.plan.forbidden);
+    return hash;
+}
+
+Json site_summary(const Site& site) {
+    return {{"buildings", site.buildings},
+            {"walls", site.walls.size()},
+            {"area_m2", site.area_m2},
+            {"width_m", site.extent.size().x()},
+            {"height_m", site.extent.size().y()},
+            {"cleaning",
+             {{"features", site.counts.features},
+              {"ignored", site.counts.ignored},
+              {"outside_crop", site.counts.outside_crop},
+              {"repaired", site.counts.repaired},
+              {"dropped_invalid", site.counts.dropped_invalid},
+              {"edges_in", site.counts.edges_in},
+              {"zero_length", site.counts.zero_length},
+              {"duplicates", site.counts.duplicates},
+              {"split", site.counts.split},
+              {"merged", site.counts.merged},
+              {"inside_solids", site.counts.inside_solids}}}};
+}
+
+std::string site_text(const Site& site) {
+    const CleaningCounts& c = site.counts;
+    return fmt::format(
+        "site         {} features, {} walls on {:.0f} x {:.0f} m (edges: {} read, {} too short, {} "
+        "repeated, {} split, {} joined, {} inside solids)",
+        c.features, site.walls.size(), site.extent.size().x(), site.extent.size().y(), c.edges_in,
+        c.zero_length, c.duplicates, c.split, c.merged, c.inside_solids);
+}
+
+std::string estimate_text(const Config& config, const Prepared& p) {
+    const Estimate e = estimate(config, p);
+    return fmt::format("cells        {} of {} m, {} of them free\n"
+                       "pieces       {}\n"
+                       "candidates   about {}\n"
+                       "memory       about {:.0f} MB\n"
+                       "disk         about {:.1f} MB\n"
+                       "The job is valid; nothing was written.\n",
+                       e.cells, config.field.cell_m, e.free_cells, e.pieces, e.candidates,
+                       e.memory_mb, e.disk_mb);
+}
+
+void add_times(Json& j, const Progress& progress) {
+    Json wall = Json::object();
+    Json cpu = Json::object();
+    for (const StageTime& s : progress.times()) {
+        wall[s.name] = wall.value(s.name, 0.0) + s.wall_s;
+        cpu[s.name] = cpu.value(s.name, 0.0) + s.cpu_s;
+    }
+    j["stage_wall_s"] = wall;
+    j["stage_cpu_s"] = cpu;
+    j["wall_s"] = progress.wall_s();
+    j["peak_rss_mb"] = peak_rss_mb();
+}
+
+void write_provenance(const RunDir& dir, const Config& config, const std::string& input_sha256,
+                      int threads) {
+    char host[256] = {};
+    gethostname(host, sizeof host - 1);
+    const std::time_t now = std::time(nullptr);
+    char when[32] = {};
+    std::strftime(when, sizeof when, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+    const Json j = {{"program", "vfplan"},
+                    {"version", version},
+                    {"version_git", version_git},
+                    {"build_type", build_type},
+                    {"input", config.site.input},
+                    {"input_sha256", input_sha256},
+                    {"host", host},
+                    {"threads", threads},
+                    {"finished_utc", when}};
+    write_text(dir.file("provenance.json"), j.dump(2) + "\n");
+}
+
+Json candidate_summary(const CandidateReport& r) {
+    return {{"joints", r.joints},
+            {"ridges", r.ridges},
+            {"ridges_short_of_overlap", r.ridges_short_of_overlap},
+            {"rescued_pieces", r.rescued_pieces},
+            {"parts_before_links", r.parts_before_links},
+            {"parts", r.parts}};
+}
+
+Json read_summary(const RunDir& dir) {
+    if (!std::filesystem::exists(dir.file("summary.json"))) return Json::object();
+    try {
+        return Json::parse(read_text(dir.file("summary.json")));
+    } catch (const Json::parse_error& e) {
+        throw IoError(fmt::format("{}: damaged ({}); run the job again with --fresh",
+                                  dir.file("summary.json").string(), e.what()));
+    }
+}
+
+// Plans, writes everything that depends on the plan, and summary.json last of all.
+std::string finish_plan(const RunDir& dir, const Config& config, const FieldTable& field,
+                        CoverageTables& tables, bool confirm, Json summary, const Threads& threads,
+                        Progress& progress) {
+    const Planned planned = plan_tables(config, tables, confirm, threads, progress);
+    progress.stage("files");
+    if (planned.rows_corrected > 0) write_coverage(dir.file("coverage.h5"), tables);
+    write_plan_files(dir, config, field, tables, planned);
+    summary.update(summary_of(planned, tables));
+    summary["kernel"] = config.visibility.kernel;
+    summary["overlap"] = {{"ratio", config.overlap.ratio}, {"threshold", config.overlap.threshold}};
+    progress.finish();
+    add_times(summary, progress);
+    summary["result_sha256"] = result_hash(field, tables, planned.plan);
+    write_text(dir.file("summary.json"), summary.dump(2) + "\n");
+    return plan_text(planned, tables);
+}
+
+}  // namespace
+
+std::string run_job(const Config& config, const JobOptions& options, Progress& progress) {
+    const Threads threads(options.threads);
+    const RunDir dir(options.out);
+    progress.stage("site");
+    const std::string input_sha256 = input_hash(config);
+    const JobKeys keys = job_keys(config, input_sha256);
+    if (!options.dry_run) dir.check(keys, options.fresh);
+
+    const bool have_tables = !options.fresh && !options.dry_run &&
+                             key_of(dir.file("field.h5")) == keys.tables &&
+                             key_of(dir.file("coverage.h5")) == keys.tables &&
+                             std::filesystem::exists(dir.file("summary.json"));
+    Tables tables;
+    Json summary;
+    if (have_tables) {
+        progress.note("tables       of this job are complete in the folder and used as they are");
+        tables.field = read_field(dir.file("field.h5"));
+        tables.coverage = read_coverage(dir.file("coverage.h5"));
+        summary = read_summary(dir);
+    } else {
+        SiteResult read = read_site(config.site.input, site_options(config));
+        for (const std::string& w : read.warnings) progress.note("warning: " + w);
+        const Prepared prepared = prepare(config, std::move(read.site));
+        progress.note(site_text(prepared.site));
+        if (options.dry_run) {
+            progress.finish();
+            return estimate_text(config, prepared);
+        }
+        dir.begin(config, keys);
+        tables = make_tables(config, prepared, keys.tables, threads, progress);
+        progress.stage("tables");
+        write_field(dir.file("field.h5"), tables.field);
+        write_coverage(dir.file("coverage.h5"), tables.coverage);
+        summary["site"] = site_summary(prepared.site);
+        summary["grid"] = {
+            {"cells", prepared.grid.size()},
+            {"free_cells", std::count(prepared.standable.begin(), prepared.standable.end(), 1)},
+            {"cell_m", prepared.grid.cell_m}};
+        summary["candidate_search"] = candidate_summary(tables.report);
+    }
+    std::string text;
+    if (options.plan) {
+        text = finish_plan(dir, config, tables.field, tables.coverage,
+                           config.visibility.kernel != "exact", std::move(summary), threads,
+                           progress);
+    } else {
+        progress.finish();
+        summary["candidates"] = tables.coverage.candidates.size();
+        summary["pieces"] = tables.coverage.pieces.size();
+        summary["kernel"] = config.visibility.kernel;
+        add_times(summary, progress);
+        write_text(dir.file("summary.json"), summary.dump(2) + "\n");
+        text = fmt::format("tables       {} candidates x {} pieces\n",
+                           tables.coverage.candidates.size(), tables.coverage.pieces.size());
+    }
+    write_provenance(dir, config, input_sha256, threads.count());
+    return text + fmt::format("written to   {} in {:.1f} s\n", dir.path().string(),
+                              progress.wall_s());
+}
+
+std::string plan_again(const std::filesystem::path& path,
+                       const std::vector<std::string>& overrides, int thread_count,
+                       Progress& progress) {
+    for (const std::string& s : overrides) {
+        if (s.rfind("plan.", 0) == 0 || s.rfind("overlap.", 0) == 0 ||
+            s.rfind("output.", 0) == 0) {
+            continue;
+        }
+        throw UsageError(fmt::format("--set {}: plan works from finished tables, so only plan.*, "
+                                     "overlap.* and output.* can be set; use run for the rest",
+                                     s));
+    }
+    const Threads threads(thread_count);
+    const RunDir dir(path);
+    (void)dir.config();  // says clearly when this is no run directory
+    const Config config = read_config(dir.file("job.toml"), overrides);
+    progress.stage("read");
+    const FieldTable field = read_field(dir.file("field.h5"));
+    CoverageTables tables = read_coverage(dir.file("coverage.h5"));
+    return finish_plan(dir, config, field, tables, false, read_summary(dir), threads, progress);
+}
+
+}  // namespace vfplan

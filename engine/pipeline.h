@@ -1,0 +1,37 @@
+// The whole road from a job to a run directory, and its parts that have commands of their own.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/config.h"
+#include "engine/progress.h"
+
+namespace vfplan {
+
+struct JobOptions {
+    std::filesystem::path out;
+    int threads = 0;
+    bool fresh = false;    // make everything again, whatever the folder holds
+    bool dry_run = false;  // validate and estimate, write nothing
+    bool plan = true;      // false: stop behind the tables
+};
+
+// run, precompute and --dry-run. Returns what a person wants to read. Throws Error.
+std::string run_job(const Config& config, const JobOptions& options, Progress& progress);
+
+// plan DIR: plans again from the tables of a run directory. `overrides` may set plan.* and
+// overlap.* only.
+std::string plan_again(const std::filesystem::path& dir, const std::vector<std::string>& overrides,
+                       int threads, Progress& progress);
+
+struct VerifyResult {
+    bool good = false;
+    std::string text;  // one line per check
+};
+
+// verify DIR: views, coverage and connection of the stations anew with the exact kernel.
+VerifyResult verify_run(const std::filesystem::path& dir, int threads, Progress& progress);
+
+}  // namespace vfplan

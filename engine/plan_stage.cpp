@@ -1,0 +1,265 @@
+#include "engine/plan_stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/tables_stage.h"
+#include "engine/viewer.h"
+#include "io/exports.h"
+#include "io/files.h"
+#include "io/map_png.h"
+#include "io/sha256.h"
+
+namespace vfplan {
+namespace {
+
+bool same_pieces(const CoverageTable& table, std::int32_t row, const CoverageRow& other) {
+    return std::equal(table.row_begin(row), table.row_end(row), other.begin(), other.end(),
+                      [](const Seen& a, const Seen& b) { return a.piece == b.piece; });
+}
+
+// Puts rows in the place of others; pieces that no row covers any more lose their reach.
+void replace_rows(CoverageTables& t, const std::vector<std::pair<std::int32_t, CoverageRow>>& rows) {
+    CoverageTable table;
+    std::size_t next = 0;
+    for (std::int32_t r = 0; r < t.table.rows(); ++r) {
+        if (next < rows.size() && rows[next].first == r) {
+            table.add(rows[next++].second);
+        } else {
+            table.add({t.table.row_begin(r), t.table.row_end(r)});
+        }
+    }
+    t.table = std::move(table);
+    std::vector<std::uint8_t> covered(t.reach.size(), 0);
+    for (const Seen& s : t.table.seen) covered[static_cast<std::size_t>(s.piece)] = 1;
+    for (std::size_t p = 0; p < covered.size(); ++p) {
+        if (covered[p] != 0) {
+            t.reach[p] = PieceStatus::covered;
+        } else if (t.reach[p] == PieceStatus::covered) {
+            t.reach[p] = PieceStatus::off_candidates;
+        }
+    }
+}
+
+Box extent_of(const CoverageTables& t) {
+    Box box;
+    for (const Wall& w : t.walls) {
+        box.add(w.a);
+        box.add(w.b);
+    }
+    for (const Candidate& c : t.candidates) box.add(c.at);
+    return box;
+}
+
+bool wants(const Config& config, const char* format) {
+    const auto& f = config.output.formats;
+    return std::find(f.begin(), f.end(), format) != f.end();
+}
+
+template <class T>
+void add_number(Sha256& hash, T value) {
+    hash.add(&value, sizeof value);
+}
+
+MapInput map_of(const Config& config, const FieldTable& field, const CoverageTables& t,
+                const Planned& planned) {
+    MapInput map;
+    map.title = std::filesystem::path(config.site.input).filename().string();
+    const Metrics& m = planned.metrics;
+    map.subtitle = fmt::format(
+        "{} stations in {} network{}, {:.1f} % of the coverable wall in the main one",
+        planned.plan.stations.size(), m.networks, m.networks == 1 ? "" : "s",
+        m.length_coverable_m > 0 ? 100 * m.length_covered_m / m.length_coverable_m : 0);
+    map.grid = &field.grid;
+    map.field_rad = &field.vf_rad;
+    map.walls = &t.walls;
+    for (const Station& s : planned.plan.stations) {
+        map.stations.push_back(
+            {t.candidates[static_cast<std::size_t>(s.candidate)].at, s.network});
+    }
+    for (const Link& l : planned.plan.links) map.links.push_back({l.from, l.to});
+    for (std::size_t p = 0; p < planned.plan.pieces.size(); ++p) {
+        if (planned.plan.pieces[p] == PieceStatus::covered ||
+            planned.plan.pieces[p] == PieceStatus::unreached) {
+            continue;
+        }
+        const Wall& wall = t.walls[static_cast<std::size_t>(t.pieces.wall[p])];
+        map.uncovered.push_back({wall.at(t.pieces.s0_m[p]), wall.at(t.pieces.s1_m[p])});
+    }
+    return map;
+}
+
+}  // namespace
+
+PlanOptions plan_options(const Config& c) {
+    return {c.plan.method, c.plan.loops, ratio_of(c.overlap.ratio), c.overlap.threshold};
+}
+
+Planned plan_tables(const Config& config, CoverageTables& t, bool confirm, const Threads& threads,
+                    Progress& progress) {
+    constexpr int rounds_most = 20;
+    const PlanOptions options = plan_options(config);
+    Planned out;
+    std::unique_ptr<ViewKernel> exact;
+    for (int round = 0;; ++round) {
+        progress.stage(round == 0 ? "overlap" : "overlap again");
+        const Graph graph =
+            overlap_graph(threads, t.pieces, t.table, options.ratio, options.threshold);
+        const PlanInput input{t.candidates, t.pieces, t.reach, t.table, graph};
+        progress.stage("plan");
+        out.plan = make_plan(input, options, out.report);
+        std::vector<std::pair<std::int32_t, CoverageRow>> corrected;
+        if (confirm && round < rounds_most) {
+            progress.stage("confirm");
+            if (!exact) {
+                exact = make_kernel("exact", t.walls, extent_of(t), config.scanner.range_max_m, 0);
+            }
+            const Viewer viewer(*exact, t.walls, t.pieces, scanner_of(config),
+                                config.coverage.visible_fraction);
+            std::vector<Vec2d> eyes;
+            for (const Station& s : out.plan.stations) {
+                eyes.push_back(t.candidates[static_cast<std::size_t>(s.candidate)].at);
+            }
+            std::vector<CoverageRow> rows = viewer.rows(threads, eyes);
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                const std::int32_t c = out.plan.stations[i].candidate;
+                if (!same_pieces(t.table, c, rows[i])) corrected.emplace_back(c, std::move(rows[i]));
+            }
+            std::sort(corrected.begin(), corrected.end(),
+                      [](const auto& a, const auto& b) { return a.first < b.first; });
+        }
+        if (corrected.empty()) {
+            progress.stage("metrics");
+            out.metrics = measure(threads, input, out.plan, t.walls, config.scanner.range_max_m);
+            return out;
+        }
+        out.rows_corrected += static_cast<std::int64_t>(corrected.size());
+        replace_rows(t, corrected);
+    }
+}
+
+std::string result_hash(const FieldTable& field, const CoverageTables& t, const Plan& plan) {
+    Sha256 h;
+    h.add(field.vf_rad);
+    for (const Candidate& c : t.candidates) {
+        add_number(h, c.at.x());
+        add_number(h, c.at.y());
+        add_number(h, c.cell);
+        add_number(h, c.kind);
+    }
+    h.add(t.table.begin);
+    for (const Seen& s : t.table.seen) {
+        add_number(h, s.piece);
+        add_number(h, s.fraction);
+        add_number(h, s.angle_rad);
+    }
+    h.add(t.pieces.s0_m);
+    h.add(t.pieces.s1_m);
+    h.add(t.reach);
+    for (const Station& s : plan.stations) {
+        add_number(h, s.candidate);
+        add_number(h, s.network);
+        add_number(h, s.new_length_m);
+    }
+    for (const Link& l : plan.links) {
+        add_number(h, l.from);
+        add_number(h, l.to);
+        add_number(h, l.overlap);
+    }
+    h.add(plan.pieces);
+    return h.hex();
+}
+
+nlohmann::ordered_json summary_of(const Planned& p, const CoverageTables& t) {
+    const Metrics& m = p.metrics;
+    nlohmann::ordered_json j;
+    j["candidates"] = t.candidates.size();
+    j["pieces"] = t.pieces.size();
+    j["pieces_coverable"] = m.pieces_coverable;
+    j["pieces_covered"] = m.pieces_covered;
+    j["pieces_unreached"] = m.pieces_unreached;
+    j["length_m"] = m.length_all_m;
+    j["length_coverable_m"] = m.length_coverable_m;
+    j["length_covered_m"] = m.length_covered_m;
+    j["stations"] = p.plan.stations.size();
+    j["networks"] = m.networks;
+    j["links"] = p.plan.links.size();
+    j["wapl"] = m.wapl;
+    j["wapl_penalty100"] = m.wapl_penalty100;
+    j["disconnected_pairs"] = m.disconnected_pairs;
+    j["bottleneck_overlap"] = m.bottleneck_overlap;
+    j["bridges"] = m.bridges;
+    j["articulation_stations"] = m.articulation_stations;
+    j["redundant_links"] = m.redundant_links;
+    j["lower_bound"] = m.lower_bound;
+    j["gap"] = m.gap;
+    j["plan"] = {{"stations_greedy", p.report.greedy_stations},
+                 {"stations_pruned", p.report.pruned_stations},
+                 {"stations_before_loops", p.report.before_loops},
+                 {"stations_after_loops", p.plan.stations.size()},
+                 {"off_cycle_before_loops", p.report.loose_before},
+                 {"off_cycle_after_loops", p.report.loose_after},
+                 {"rows_corrected", p.rows_corrected}};
+    j["histograms"] = {{"stations_per_piece", m.multiplicity},
+                       {"range_by_tenth_of_max", m.range_tenths},
+                       {"incidence_by_10_deg", m.incidence_tens}};
+    nlohmann::ordered_json networks = nlohmann::ordered_json::array();
+    for (std::int64_t n = 0; n < m.networks; ++n) {
+        std::int64_t stations = 0;
+        double length = 0;
+        for (const Station& s : p.plan.stations) {
+            if (s.network != n) continue;
+            ++stations;
+            length += s.new_length_m;
+        }
+        networks.push_back({{"stations", stations}, {"length_m", length}});
+    }
+    j["network_list"] = networks;
+    return j;
+}
+
+void write_plan_files(const RunDir& dir, const Config& config, const FieldTable& field,
+                      const CoverageTables& t, const Planned& p) {
+    write_plan(dir.file("plan.h5"),
+               {p.plan, t.key, config.overlap.ratio, config.overlap.threshold});
+    if (wants(config, "csv")) {
+        write_text(dir.file("stations.csv"), stations_csv(t, p.plan));
+        write_text(dir.file("links.csv"), links_csv(p.plan));
+        write_text(dir.file("pieces.csv"), pieces_csv(t, p.plan));
+    }
+    if (wants(config, "geojson")) {
+        write_text(dir.file("stations.geojson"), stations_geojson(t, p.plan));
+    }
+    if (wants(config, "png")) {
+        write_text(dir.file("map.png"), map_png(map_of(config, field, t, p)));
+    }
+}
+
+std::string plan_text(const Planned& p, const CoverageTables& t) {
+    const Metrics& m = p.metrics;
+    const auto share = [](double part, double whole) { return whole > 0 ? 100 * part / whole : 0; };
+    std::string out = fmt::format(
+        "stations     {} in {} network{} with {} links (of {} candidates; at least {} are needed)\n"
+        "covered      {} of {} coverable pieces, {:.2f} % of their {:.0f} m, by the main network\n",
+        p.plan.stations.size(), m.networks, m.networks == 1 ? "" : "s", p.plan.links.size(),
+        t.candidates.size(), m.lower_bound, m.pieces_covered, m.pieces_coverable,
+        share(m.length_covered_m, m.length_coverable_m), m.length_coverable_m);
+    if (m.pieces_unreached > 0) {
+        out += fmt::format(
+            "unreached    {} pieces are seen only by {} other network{}, which no chain of overlaps "
+            "of {} joins to the main one\n",
+            m.pieces_unreached, m.networks - 1, m.networks == 2 ? "" : "s", "the threshold");
+    }
+    const std::int64_t nobody = t.pieces.size() - m.pieces_coverable;
+    if (nobody > 0) {
+        out += fmt::format("no viewpoint {} pieces, {:.2f} % of all wall length (pieces.csv)\n",
+                           nobody, share(m.length_all_m - m.length_coverable_m, m.length_all_m));
+    }
+    out += fmt::format("network      WAPL {:.3f}, weakest needed overlap {:.3f}, {} bridges, {} "
+                       "articulation stations\n",
+                       m.wapl, m.bottleneck_overlap, m.bridges, m.articulation_stations);
+    return out;
+}
+
+}  // namespace vfplan

@@ -1,0 +1,74 @@
+#include "engine/run_dir.h"
+
+#include <fmt/format.h>
+
+#include "io/files.h"
+#include "io/sha256.h"
+#include "kernels/error.h"
+
+namespace vfplan {
+namespace {
+
+constexpr const char* key_label = "# job ";
+constexpr const char* format = "vfplan tables 1\n";
+
+}  // namespace
+
+JobKeys job_keys(const Config& config, const std::string& input_sha256) {
+    const auto hash = [&](Stage stage) {
+        Sha256 h;
+        h.add(std::string(format));
+        h.add(canonical(config, stage));
+        h.add(input_sha256);
+        return h.hex();
+    };
+    return {hash(Stage::tables), hash(Stage::plan)};
+}
+
+std::string RunDir::stored_key() const {
+    const std::string text = read_text(file("job.toml"));
+    const auto at = text.find(key_label);
+    if (at == std::string::npos) return "";
+    const auto from = at + std::string(key_label).size();
+    return text.substr(from, text.find('\n', from) - from);
+}
+
+void RunDir::check(const JobKeys& keys, bool fresh) const {
+    std::error_code error;
+    if (!std::filesystem::exists(path_, error)) return;
+    if (!std::filesystem::is_directory(path_, error)) {
+        throw IoError(fmt::format("{}: is a file, and a run needs a folder; choose another --out",
+                                  path_.string()));
+    }
+    if (std::filesystem::is_empty(path_, error)) return;
+    if (!std::filesystem::exists(file("job.toml"), error)) {
+        throw UsageError(fmt::format("{}: holds files but no run of this program; choose another "
+                                     "--out or an empty folder",
+                                     path_.string()));
+    }
+    const std::string stored = stored_key();
+    if (stored == keys.job || fresh) return;
+    throw UsageError(fmt::format("{}: holds the run of another job (its hash {}, this job's {}); "
+                                 "choose another --out, or --fresh to replace it",
+                                 path_.string(), stored.substr(0, 16), keys.job.substr(0, 16)));
+}
+
+void RunDir::begin(const Config& config, const JobKeys& keys) const {
+    std::error_code error;
+    std::filesystem::create_directories(path_, error);
+    if (error) {
+        throw IoError(fmt::format("{}: cannot be created: {}; choose another --out", path_.string(),
+                                  error.message()));
+    }
+    write_text(file("job.toml"), fmt::format("{}{}\n{}", key_label, keys.job, to_toml(config)));
+}
+
+Config RunDir::config() const {
+    if (!std::filesystem::exists(file("job.toml"))) {
+        throw IoError(fmt::format("{}: no job.toml in it; give the folder of a finished run",
+                                  path_.string()));
+    }
+    return read_config(file("job.toml"), {});
+}
+
+}  // namespace vfplan

@@ -1,0 +1,222 @@
+#include "engine/tables_stage.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/vector_reader.h"
+#include "kernels/embree_scene.h"
+#include "kernels/error.h"
+#include "kernels/free_cells.h"
+#include "kernels/skeleton.h"
+
+namespace vfplan {
+namespace {
+
+// Bytes per cell: field, masks, distance with its two offsets, floods of the links.
+constexpr double bytes_per_cell = 4 + 5 + 12 + 16;
+
+void forbid(const Config& config, const Site& site, const Grid& grid,
+            Raster<std::uint8_t>& standable) {
+    if (config.plan.forbidden.empty()) return;
+    std::vector<Ring> rings;
+    const FeatureSet set = read_features(
+        config.plan.forbidden, {SiteKind::outdoor, "", config.site.crs, config.site.unit_m});
+    for (const Feature& f : set.features) {
+        for (const Polygon& p : f.polygons) {
+            const auto add = [&](Ring ring) {
+                for (Vec2d& v : ring) v -= site.origin;
+                rings.assign(1, std::move(ring));
+            };
+            Raster<std::uint8_t> inside;
+            add(p.outer);
+            inside = free_cells(grid, rings);
+            for (std::size_t i = 0; i < inside.size(); ++i) {
+                if (inside[i] != 0) standable[i] = 0;
+            }
+        }
+    }
+}
+
+std::vector<Vec2d> in_site_frame(const std::vector<Vec2d>& points, const Prepared& p,
+                                 const char* key, bool must_stand) {
+    std::vector<Vec2d> out;
+    for (const Vec2d& point : points) {
+        const Vec2d at = point - p.site.origin;
+        const Vec2d cell = (at - p.grid.origin) / p.grid.cell_m;
+        const auto ix = static_cast<std::int32_t>(std::floor(cell.x()));
+        const auto iy = static_cast<std::int32_t>(std::floor(cell.y()));
+        const bool inside = p.grid.inside(ix, iy);
+        if (!inside || (must_stand &&
+                        p.standable[static_cast<std::size_t>(p.grid.id(ix, iy))] == 0)) {
+            throw UsageError(fmt::format("{}: no station can stand at ({}, {}); give a point in "
+                                         "free space, in the file's metres",
+                                         key, point.x(), point.y()));
+        }
+        out.push_back(at);
+    }
+    return out;
+}
+
+}  // namespace
+
+SiteOptions site_options(const Config& c) {
+    SiteOptions o;
+    o.kind = c.site.kind == "indoor" ? SiteKind::indoor : SiteKind::outdoor;
+    o.layer = c.site.layer;
+    o.crs = c.site.crs;
+    o.unit_m = c.site.unit_m;
+    o.snap_m = c.site.snap_m;
+    o.margin_m = c.site.margin_m;
+    o.crop_m = c.site.crop_m;
+    o.doors_open = c.site.doors == "open";
+    o.windows = c.site.windows == "wall"     ? WindowMode::wall
+                : c.site.windows == "ignore" ? WindowMode::ignore
+                                             : WindowMode::opening;
+    o.invalid = c.site.invalid == "error"    ? InvalidPolygons::error
+                : c.site.invalid == "repair" ? InvalidPolygons::repair
+                                             : InvalidPolygons::drop;
+    return o;
+}
+
+Scanner scanner_of(const Config& c) {
+    return {c.scanner.range_min_m, c.scanner.range_max_m, c.scanner.max_incidence_deg};
+}
+
+OverlapRatio ratio_of(const std::string& name) {
+    const auto found = std::find(overlap_ratio_names.begin(), overlap_ratio_names.end(), name);
+    return static_cast<OverlapRatio>(found - overlap_ratio_names.begin());
+}
+
+int rays_of(const Config& c) {
+    if (c.visibility.rays > 0) return static_cast<int>(c.visibility.rays);
+    return default_rays(c.scanner.range_max_m, c.coverage.partition_m);
+}
+
+Prepared prepare(const Config& config, Site site) {
+    Prepared p;
+    p.site = std::move(site);
+    const Vec2d size = p.site.extent.size();
+    const double cell = config.field.cell_m;
+    if (cell > size.x() || cell > size.y()) {
+        throw UsageError(fmt::format("field.cell_m = {}: a cell is larger than the site, which is "
+                                     "{:.1f} x {:.1f} m; choose a smaller one",
+                                     cell, size.x(), size.y()));
+    }
+    const double cells = std::ceil(size.x() / cell) * std::ceil(size.y() / cell);
+    const double ram = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                       static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    if (cells > 2e9 || cells * bytes_per_cell > 0.9 * ram) {
+        throw UsageError(fmt::format("field.cell_m = {}: {:.3g} cells need about {:.1f} GB and "
+                                     "this machine has {:.1f} GB; choose larger cells or crop_m",
+                                     cell, cells, cells * bytes_per_cell / 1e9, ram / 1e9));
+    }
+    p.grid = make_grid(p.site.extent, cell, config.site.snap_m);
+    p.standable = free_cells(p.grid, p.site.free_region);
+    forbid(config, p.site, p.grid, p.standable);
+    if (std::count(p.standable.begin(), p.standable.end(), 1) == 0) {
+        throw UsageError(fmt::format("field.cell_m = {}: no cell's centre lies in free space; "
+                                     "choose a smaller cell",
+                                     cell));
+    }
+    return p;
+}
+
+Estimate estimate(const Config& config, const Prepared& p) {
+    Estimate e;
+    e.cells = p.grid.size();
+    e.free_cells = std::count(p.standable.begin(), p.standable.end(), 1);
+    e.pieces = cut_into_pieces(p.site.walls, config.coverage.partition_m).size();
+    // Joints come about twice per building or room, ridge points as many again.
+    e.candidates = std::max<std::int64_t>(4, 3 * p.site.buildings);
+    const double entries = static_cast<double>(e.candidates) *
+                           std::min(400.0, static_cast<double>(e.pieces));
+    e.memory_mb = (static_cast<double>(e.cells) * bytes_per_cell + entries * 24 +
+                   static_cast<double>(p.site.walls.size()) * 400) /
+                      1e6 +
+                  60;
+    e.disk_mb = (static_cast<double>(e.free_cells) * 3 + entries * 5 +
+                 static_cast<double>(e.pieces) * 80) /
+                    1e6 +
+                1;
+    return e;
+}
+
+Tables make_tables(const Config& config, const Prepared& p, const std::string& key,
+                   const Threads& threads, Progress& progress) {
+    Tables out;
+    const Scanner scanner = scanner_of(config);
+    const std::vector<Vec2d> required =
+        in_site_frame(config.plan.required, p, "plan.required", true);
+    const std::vector<Vec2d> existing =
+        in_site_frame(config.plan.existing, p, "plan.existing", false);
+
+    progress.stage("scene");
+    std::unique_ptr<ViewKernel> kernel;
+    threads.run([&] {
+        kernel = make_kernel(config.visibility.kernel, p.site.walls, p.site.extent,
+                             scanner.range_max_m, rays_of(config));
+    });
+    CoverageTables& c = out.coverage;
+    c.walls = p.site.walls;
+    c.pieces = cut_into_pieces(p.site.walls, config.coverage.partition_m);
+    const Viewer viewer(*kernel, p.site.walls, c.pieces, scanner,
+                        config.coverage.visible_fraction);
+
+    progress.stage("field", p.grid.size());
+    out.field = {p.grid,
+                 visibility_field(viewer, threads, p.grid, p.standable,
+                                  [&](std::int64_t n) { progress.advance(n); }),
+                 p.site.origin, p.site.crs_wkt, key};
+
+    progress.stage("skeleton");
+    Raster<std::uint8_t> passable = p.standable;
+    const Raster<std::uint8_t> cut = cut_cells(p.grid, p.standable, p.site.walls);
+    Raster<std::uint8_t> domain(passable.size(), 0);
+    const auto threshold = static_cast<float>(config.field.threshold_rad);
+    for (std::size_t i = 0; i < passable.size(); ++i) {
+        if (cut[i] != 0) passable[i] = 0;
+        domain[i] = passable[i] != 0 && out.field.vf_rad[i] >= threshold ? 1 : 0;
+    }
+    DistanceField distance;
+    distance.resize(p.grid.size());
+    threads.for_each(p.grid.nx, 16, [&](std::int64_t from, std::int64_t to) {
+        distance_columns(p.grid, domain, static_cast<std::int32_t>(from),
+                         static_cast<std::int32_t>(to), distance);
+    });
+    threads.for_each(p.grid.ny, 16, [&](std::int64_t from, std::int64_t to) {
+        distance_rows(p.grid, domain, static_cast<std::int32_t>(from),
+                      static_cast<std::int32_t>(to), distance);
+    });
+    Raster<std::uint8_t> skeleton = thin(p.grid, domain, distance);
+    prune_spurs(p.grid, distance, skeleton);
+    const RidgeGraph ridges = ridge_graph(p.grid, skeleton);
+    if (ridges.joints.empty() && ridges.ridges.empty() && required.empty() && existing.empty()) {
+        throw UsageError(fmt::format(
+            "field.threshold_rad = {}: no cell sees that much wall between range_min_m = {} and "
+            "range_max_m = {}; lower the threshold or raise range_max_m",
+            config.field.threshold_rad, scanner.range_min_m, scanner.range_max_m));
+    }
+
+    progress.stage("coverage");
+    const Ground ground{p.grid, out.field.vf_rad, passable, domain};
+    CandidateOptions options;
+    options.ratio = ratio_of(config.overlap.ratio);
+    options.threshold = config.overlap.threshold;
+    options.required = required;
+    options.existing = existing;
+    CandidateResult found = find_candidates(viewer, threads, ground, ridges, options,
+                                            [&](const char* phase) { progress.stage(phase); });
+    c.reach = std::move(found.reach);
+    c.candidates = std::move(found.candidates);
+    c.table = std::move(found.table);
+    c.origin = p.site.origin;
+    c.crs_wkt = p.site.crs_wkt;
+    c.key = key;
+    out.report = found.report;
+    return out;
+}
+
+}  // namespace vfplan
