@@ -30,7 +30,7 @@ Box world_of(const MapInput& in) {
     if (all.empty()) all = {{0, 0}, {1, 1}};
     const double longest = std::max({all.size().x(), all.size().y(), 1e-3});
     // Room for the line width of walls on the border.
-    const Vec2d pad = Vec2d::Constant(0.004 * longest);
+    const Vec2d pad = Vec2d::Constant(0.002 * longest);
     if (!walls.empty()) {
         all.add(walls.min - pad);
         all.add(walls.max + pad);

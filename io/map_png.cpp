@@ -241,8 +241,13 @@ void draw_uncovered(cairo_t* c, const MapInput& in, const MapLayout& l, const St
     for (const MapUncovered& s : in.uncovered) {
         segments.push_back({l.x(s.a), l.y(s.a), l.x(s.b), l.y(s.b)});
     }
-    const double width = std::max(2.4 * l.u, 1.3 * style.wall);
-    cased(c, segments, uncovered_colour, width, white, width + 2 * l.u);
+    // Thousands of stretches in a city must not hide the field.
+    const double area = static_cast<double>(l.map_w) * l.map_h;
+    const double spacing =
+        std::sqrt(area / static_cast<double>(std::max<std::size_t>(segments.size(), 1)));
+    const double width =
+        std::clamp(0.1 * spacing, 0.8 * l.u, std::max(2.4 * l.u, 1.3 * style.wall));
+    cased(c, segments, uncovered_colour, width, white, 1.8 * width);
 }
 
 void draw_plan(cairo_t* c, const MapInput& in, const MapLayout& l, const Style& style) {

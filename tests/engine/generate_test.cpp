@@ -118,9 +118,10 @@ bool overlap(const Points& a, const Points& b) {
 
 int count_overlaps(const std::vector<Feature>& all) {
     std::vector<std::pair<Box, const Points*>> order;
+    order.reserve(all.size());
     for (const Feature& f : all) {
         // A courtyard is no footprint, but nothing stands in one of these either.
-        order.emplace_back(box_of(f.parts[0]), &f.parts[0]);
+        order.emplace_back(box_of(f.parts.front()), &f.parts.front());
     }
     std::sort(order.begin(), order.end(),
               [](const auto& a, const auto& b) { return a.first.min.x() < b.first.min.x(); });

@@ -90,9 +90,9 @@ private:
     void dynamic() {
         constexpr std::array<std::size_t, 19> order{16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
                                                     11, 4,  12, 3, 13, 2, 14, 1, 15};
-        const auto literals = static_cast<std::size_t>(bits(5) + 257);
-        const auto distances = static_cast<std::size_t>(bits(5) + 1);
-        const auto codes = static_cast<std::size_t>(bits(4) + 4);
+        const auto literals = 257 + static_cast<std::size_t>(bits(5));
+        const auto distances = 1 + static_cast<std::size_t>(bits(5));
+        const auto codes = 4 + static_cast<std::size_t>(bits(4));
         std::vector<int> lengths(19, 0);
         for (std::size_t i = 0; i < codes; ++i) lengths[order[i]] = bits(3);
         const Huffman code_lengths(lengths);
