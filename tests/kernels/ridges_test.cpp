@@ -1,0 +1,183 @@
+#include "kernels/ridges.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "kernels/skeleton.h"
+#include "tests/kernels/raster_art.h"
+
+namespace vfplan {
+namespace {
+
+using test::draw;
+using test::Picture;
+
+RidgeGraph take_apart(const Picture& p) { return ridge_graph(p.grid, p.set); }
+
+TEST(Ridges, LineHasNoJoint) {
+    const Picture p = draw({".........", ".#######.", "........."});
+    const RidgeGraph g = take_apart(p);
+    EXPECT_TRUE(g.joints.empty());
+    ASSERT_EQ(g.ridges.size(), 1U);
+    EXPECT_EQ(g.ridges[0].cells.size(), 7U);
+    EXPECT_EQ(g.ridges[0].joint[0], -1);
+    EXPECT_EQ(g.ridges[0].joint[1], -1);
+    EXPECT_FALSE(g.ridges[0].ring);
+    EXPECT_EQ(std::set({g.ridges[0].cells.front(), g.ridges[0].cells.back()}),
+              std::set({p.grid.id(1, 1), p.grid.id(7, 1)}));
+}
+
+TEST(Ridges, CrossHasOneJointAndFourRidges) {
+    const Picture p = draw({"....#....", "....#....", "....#....", "....#....", "#########",
+                            "....#....", "....#....", "....#....", "....#...."});
+    const RidgeGraph g = take_apart(p);
+    ASSERT_EQ(g.joints.size(), 1U);
+    EXPECT_EQ(g.joints[0], p.grid.id(4, 4));
+    ASSERT_EQ(g.ridges.size(), 4U);
+    for (const Ridge& r : g.ridges) {
+        EXPECT_EQ((r.joint[0] >= 0) + (r.joint[1] >= 0), 1);
+        EXPECT_EQ(r.cells.size(), 3U);  // the arms' inner cells belong to the joint's cluster
+    }
+}
+
+TEST(Ridges, ClusterGivesItsCellNearestToTheCentroid) {
+    // The cells with three neighbours or more are (4, 1), (3, 2), (4, 2), (5, 2).
+    const Picture p = draw({"....#....", "....#....", "#########", "........."});
+    const RidgeGraph g = take_apart(p);
+    ASSERT_EQ(g.joints.size(), 1U);
+    EXPECT_EQ(g.joints[0], p.grid.id(4, 2));
+}
+
+TEST(Ridges, TieInAClusterGoesToTheLowerRowThenColumn) {
+    // Two branching cells side by side, equally far from their middle.
+    const Picture level = draw({"#....#", ".#..#.", "..##..", ".#..#.", "#....#"});
+    const RidgeGraph g = take_apart(level);
+    ASSERT_EQ(g.joints.size(), 1U);
+    EXPECT_EQ(g.joints[0], level.grid.id(2, 2));
+    const Picture upright = draw({"#...#", ".#.#.", "..#..", "..#..", ".#.#.", "#...#"});
+    const RidgeGraph h = take_apart(upright);
+    ASSERT_EQ(h.joints.size(), 1U);
+    EXPECT_EQ(h.joints[0], upright.grid.id(2, 2));
+}
+
+TEST(Ridges, TwoJointsShareARidge) {
+    const Picture p = draw({"#...........#", ".#.........#.", "..#########..", ".#.........#.",
+                            "#...........#"});
+    const RidgeGraph g = take_apart(p);
+    ASSERT_EQ(g.joints.size(), 2U);
+    EXPECT_LT(g.joints[0], g.joints[1]);  // by the first cell of their clusters
+    int between = 0;
+    for (const Ridge& r : g.ridges) {
+        between += r.joint[0] >= 0 && r.joint[1] >= 0 && r.joint[0] != r.joint[1] ? 1 : 0;
+        EXPECT_FALSE(r.ring);
+    }
+    EXPECT_EQ(between, 1);
+    EXPECT_EQ(g.ridges.size(), 5U);
+}
+
+TEST(Ridges, RingWithoutJoint) {
+    const Picture p = draw({"..##..", ".#..#.", "#....#", "#....#", ".#..#.", "..##.."});
+    const RidgeGraph g = take_apart(p);
+    EXPECT_TRUE(g.joints.empty());
+    ASSERT_EQ(g.ridges.size(), 1U);
+    EXPECT_TRUE(g.ridges[0].ring);
+    EXPECT_EQ(g.ridges[0].cells.size(), 12U);
+}
+
+TEST(Ridges, EverySkeletonCellIsInOneRidgeOrAJointCluster) {
+    std::mt19937_64 random(1);
+    for (int i = 0; i < 30; ++i) {
+        Picture p = test::random_domain(random, 40, 34);
+        p.set = thin(p.grid, p.set, test::distance_of(p));
+        const RidgeGraph g = take_apart(p);
+        std::set<std::int64_t> in_ridges;
+        std::int64_t last_first = -1;
+        bool last_ring = false;
+        for (const Ridge& r : g.ridges) {
+            for (const std::int64_t c : r.cells) EXPECT_TRUE(in_ridges.insert(c).second);
+            for (std::size_t k = 1; k < r.cells.size(); ++k) {
+                EXPECT_LE(std::abs(p.grid.ix(r.cells[k]) - p.grid.ix(r.cells[k - 1])), 1);
+                EXPECT_LE(std::abs(p.grid.iy(r.cells[k]) - p.grid.iy(r.cells[k - 1])), 1);
+            }
+            if (r.ring == last_ring) EXPECT_GT(r.cells.front(), last_first);
+            last_first = r.cells.front();
+            last_ring = r.ring;
+        }
+        for (std::int64_t c = 0; c < p.grid.size(); ++c) {
+            const bool set = p.set[static_cast<std::size_t>(c)] != 0;
+            const bool branches = std::popcount(neighbourhood(p.grid, p.set, c)) >= 3;
+            EXPECT_EQ(in_ridges.contains(c), set && !branches);
+        }
+        for (const std::int64_t joint : g.joints) {
+            EXPECT_NE(p.set[static_cast<std::size_t>(joint)], 0);
+            EXPECT_GE(std::popcount(neighbourhood(p.grid, p.set, joint)), 3);
+        }
+    }
+}
+
+// A line of 15 cells with a spur of `length` cells at its middle, and a clearance of 4 there.
+std::int64_t spurs_pruned(int length, Picture& p) {
+    p = test::blank(15, 12);
+    for (std::int32_t x = 0; x < 15; ++x) p.at(x, 2) = 1;
+    for (std::int32_t y = 3; y < 3 + 1 + length; ++y) p.at(7, y) = 1;  // one cell joins the cluster
+    DistanceField d;
+    d.resize(p.grid.size());
+    for (auto& squared : d.squared) squared = 16;
+    return prune_spurs(p.grid, d, p.set);
+}
+
+TEST(Ridges, SpursShorterThanTheClearanceGo) {
+    Picture p;
+    EXPECT_EQ(spurs_pruned(2, p), 1);
+    EXPECT_FALSE(p.has(7, 5));
+    for (std::int32_t x = 0; x < 15; ++x) EXPECT_TRUE(p.has(x, 2));
+    EXPECT_EQ(spurs_pruned(3, p), 1);
+    EXPECT_EQ(spurs_pruned(4, p), 0);  // as long as the clearance: it stays
+    EXPECT_TRUE(p.has(7, 7));
+}
+
+TEST(Ridges, LinesWithoutJointsAreNoSpurs) {
+    Picture p = draw({"......", ".###..", "......"});
+    DistanceField d;
+    d.resize(p.grid.size());
+    for (auto& squared : d.squared) squared = 100;
+    EXPECT_EQ(prune_spurs(p.grid, d, p.set), 0);
+    EXPECT_TRUE(p.has(1, 1) && p.has(2, 1) && p.has(3, 1));
+}
+
+TEST(Ridges, PruningKeepsTopology) {
+    std::mt19937_64 random(2);
+    std::int64_t pruned = 0;
+    for (int i = 0; i < 60; ++i) {
+        Picture p = test::random_domain(random, 44, 38);
+        const DistanceField d = test::distance_of(p);
+        p.set = thin(p.grid, p.set, d);
+        const int parts = test::parts(p);
+        const int holes = test::holes(p);
+        pruned += prune_spurs(p.grid, d, p.set);
+        EXPECT_EQ(test::parts(p), parts) << i;
+        EXPECT_EQ(test::holes(p), holes) << i;
+        EXPECT_EQ(prune_spurs(p.grid, d, p.set), 0);  // none is left
+    }
+    EXPECT_GT(pruned, 50);
+}
+
+TEST(Ridges, ArcLengthAndItsMiddle) {
+    Grid g;
+    g.nx = g.ny = 20;
+    std::vector<std::int64_t> cells;
+    for (std::int32_t x = 0; x <= 6; ++x) cells.push_back(g.id(x, 0));
+    for (std::int32_t k = 1; k <= 6; ++k) cells.push_back(g.id(6 + k, k));
+    EXPECT_DOUBLE_EQ(arc_cells(g, cells, 0, 6), 6);
+    EXPECT_DOUBLE_EQ(arc_cells(g, cells, 0, 12), 6 + 6 * std::sqrt(2.0));
+    EXPECT_DOUBLE_EQ(arc_cells(g, cells, 3, 3), 0);
+    EXPECT_EQ(arc_middle(g, cells, 0, 6), 3U);
+    EXPECT_EQ(arc_middle(g, cells, 4, 6), 5U);   // strictly between
+    EXPECT_EQ(arc_middle(g, cells, 0, 12), 7U);  // half of 14.49 is 7.24: 6 + sqrt(2) is nearest
+    EXPECT_EQ(arc_middle(g, cells, 0, 3), 1U);   // a tie goes to the first
+}
+
+}  // namespace
+}  // namespace vfplan

@@ -1,0 +1,179 @@
+#include "kernels/skeleton.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+
+#include "tests/kernels/raster_art.h"
+
+namespace vfplan {
+namespace {
+
+using test::blank;
+using test::distance_of;
+using test::holes;
+using test::parts;
+using test::Picture;
+
+Picture skeleton_of(const Picture& domain) {
+    Picture out = domain;
+    out.set = thin(domain.grid, domain.set, distance_of(domain));
+    return out;
+}
+
+Picture box(std::int32_t nx, std::int32_t ny) {
+    Picture p = blank(nx + 4, ny + 4);
+    for (std::int32_t y = 2; y < ny + 2; ++y) {
+        for (std::int32_t x = 2; x < nx + 2; ++x) p.at(x, y) = 1;
+    }
+    return p;
+}
+
+// Whether a cell may go without changing topology, by counting groups in its 3 x 3 surroundings.
+bool removable(const Picture& p, std::int32_t x, std::int32_t y) {
+    Picture around = blank(3, 3);
+    for (std::int32_t dy = -1; dy <= 1; ++dy) {
+        for (std::int32_t dx = -1; dx <= 1; ++dx) around.at(dx + 1, dy + 1) = p.has(x + dx, y + dy);
+    }
+    around.at(1, 1) = 0;
+    if (parts(around) != 1) return false;
+    // Background groups that touch the cell by an edge, walking by edges in the eight neighbours.
+    constexpr std::array<std::pair<int, int>, 8> ring = {
+        {{2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}, {0, 0}, {1, 0}, {2, 0}}};
+    std::array<bool, 8> open{};
+    for (std::size_t k = 0; k < 8; ++k) open[k] = !around.has(ring[k].first, ring[k].second);
+    if (open == std::array<bool, 8>{true, true, true, true, true, true, true, true}) return false;
+    int runs = 0;
+    for (std::size_t k = 0; k < 8; ++k) {
+        if (!open[k] || open[(k + 7) % 8]) continue;
+        bool by_edge = false;
+        for (std::size_t i = k; open[i % 8]; ++i) by_edge = by_edge || i % 2 == 0;
+        runs += by_edge ? 1 : 0;
+    }
+    return runs == 1;
+}
+
+void expect_skeleton(const Picture& domain, const Picture& skeleton) {
+    EXPECT_EQ(parts(skeleton), parts(domain));
+    EXPECT_EQ(holes(skeleton), holes(domain));
+    for (std::int32_t y = 0; y < domain.grid.ny; ++y) {
+        for (std::int32_t x = 0; x < domain.grid.nx; ++x) {
+            if (!skeleton.has(x, y)) continue;
+            EXPECT_TRUE(domain.has(x, y));
+            // One cell thin: only ends of lines could still go.
+            const unsigned bits =
+                neighbourhood(skeleton.grid, skeleton.set, skeleton.grid.id(x, y));
+            EXPECT_TRUE(!removable(skeleton, x, y) || std::popcount(bits) <= 2)
+                << "cell " << x << ", " << y << " is not needed";
+        }
+    }
+}
+
+TEST(Skeleton, KeepsTopologyOnRandomDomains) {
+    std::mt19937_64 random(1);
+    int most_holes = 0;
+    int most_parts = 0;
+    for (int i = 0; i < 80; ++i) {
+        const Picture domain = test::random_domain(random, 20 + i % 30, 20 + i % 23);
+        expect_skeleton(domain, skeleton_of(domain));
+        most_holes = std::max(most_holes, holes(domain));
+        most_parts = std::max(most_parts, parts(domain));
+    }
+    EXPECT_GT(most_holes, 5);  // else the domains prove nothing
+    EXPECT_GT(most_parts, 5);
+}
+
+TEST(Skeleton, KeepsTopologyOfConstructedDomains) {
+    Picture ring = box(21, 21);
+    for (std::int32_t y = 9; y < 14; ++y) {
+        for (std::int32_t x = 9; x < 16; ++x) ring.at(x, y) = 0;
+    }
+    expect_skeleton(ring, skeleton_of(ring));
+    EXPECT_EQ(holes(skeleton_of(ring)), 1);
+
+    Picture speck = blank(5, 5);
+    speck.at(2, 2) = 1;
+    EXPECT_EQ(skeleton_of(speck).set, speck.set);
+
+    Picture diagonal = blank(9, 9);  // two blocks that touch by a corner are one part
+    for (std::int32_t y = 0; y < 4; ++y) {
+        for (std::int32_t x = 0; x < 4; ++x) diagonal.at(x, y) = diagonal.at(x + 4, y + 4) = 1;
+    }
+    expect_skeleton(diagonal, skeleton_of(diagonal));
+
+    const Picture full = blank(15, 11, 1);  // up to the border of the grid
+    expect_skeleton(full, skeleton_of(full));
+    const Picture nothing = blank(6, 6);
+    EXPECT_EQ(skeleton_of(nothing).set, nothing.set);
+}
+
+TEST(Skeleton, CorridorGivesItsCentreLine) {
+    const Picture s = skeleton_of(box(41, 7));
+    for (std::int32_t x = 2 + 4; x < 2 + 37; ++x) {
+        for (std::int32_t y = 0; y < s.grid.ny; ++y) {
+            EXPECT_EQ(s.has(x, y), y == 2 + 3) << x << ", " << y;
+        }
+    }
+}
+
+TEST(Skeleton, SquareGivesAnX) {
+    const std::int32_t n = 21;
+    const Picture s = skeleton_of(box(n, n));
+    EXPECT_TRUE(s.has(2 + n / 2, 2 + n / 2));
+    int arms = 0;
+    for (std::int32_t y = 0; y < n; ++y) {
+        for (std::int32_t x = 0; x < n; ++x) {
+            if (!s.has(2 + x, 2 + y)) continue;
+            const std::int32_t off = std::min(std::abs(x - y), std::abs(x + y - (n - 1)));
+            EXPECT_LE(off, 1) << x << ", " << y;
+        }
+    }
+    for (const std::int32_t x : {2, n - 3}) {  // into every corner
+        for (const std::int32_t y : {2, n - 3}) {
+            bool near = false;
+            for (std::int32_t d = -2; d <= 2; ++d) near = near || s.has(2 + x, 2 + y + d);
+            arms += near ? 1 : 0;
+        }
+    }
+    EXPECT_EQ(arms, 4);
+}
+
+TEST(Skeleton, DependsOnTheDomainAlone) {
+    std::mt19937_64 random(2);
+    for (int i = 0; i < 20; ++i) {
+        const Picture domain = test::random_domain(random, 26, 24);
+        const Picture here = skeleton_of(domain);
+        EXPECT_EQ(here.set, skeleton_of(domain).set);
+        Picture moved = blank(26 + 11, 24 + 8);  // the same cells elsewhere in a larger grid
+        for (std::int32_t y = 0; y < 24; ++y) {
+            for (std::int32_t x = 0; x < 26; ++x) moved.at(x + 7, y + 3) = domain.has(x, y);
+        }
+        const Picture there = skeleton_of(moved);
+        for (std::int32_t y = 0; y < 24; ++y) {
+            for (std::int32_t x = 0; x < 26; ++x) {
+                EXPECT_EQ(here.has(x, y), there.has(x + 7, y + 3)) << x << ", " << y;
+            }
+        }
+    }
+}
+
+TEST(Skeleton, FluxIsStrongOnTheAxisAndWeakBesideIt) {
+    const Picture corridor = box(41, 11);
+    const DistanceField d = distance_of(corridor);
+    EXPECT_LT(outward_flux(corridor.grid, d, corridor.grid.id(22, 7)), -0.4);
+    EXPECT_NEAR(outward_flux(corridor.grid, d, corridor.grid.id(22, 4)), 0, 0.05);
+}
+
+TEST(Skeleton, NeighbourhoodBitsRunCounterClockwiseFromEast) {
+    for (unsigned k = 0; k < 8; ++k) {
+        Picture p = blank(3, 3);
+        p.at(1 + around_dx[k], 1 + around_dy[k]) = 1;
+        EXPECT_EQ(neighbourhood(p.grid, p.set, p.grid.id(1, 1)), 1U << k);
+    }
+    const Picture full = blank(3, 3, 1);
+    EXPECT_EQ(std::popcount(neighbourhood(full.grid, full.set, 0)), 3);  // a corner of the grid
+}
+
+}  // namespace
+}  // namespace vfplan
