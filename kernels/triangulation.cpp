@@ -28,6 +28,7 @@ std::uint64_t edge_key(std::int32_t u, std::int32_t v) {
 // walls only.
 struct Points {
     std::vector<Vec2d> at;
+    std::ptrdiff_t sorted = 0;  // the far corners that are appended later are not
 
     explicit Points(const std::vector<Wall>& walls) {
         at.reserve(2 * walls.size());
@@ -37,13 +38,14 @@ struct Points {
         }
         std::sort(at.begin(), at.end(), before);
         at.erase(std::unique(at.begin(), at.end()), at.end());
+        sorted = static_cast<std::ptrdiff_t>(at.size());
     }
     static bool before(const Vec2d& p, const Vec2d& q) {
         return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y());
     }
     std::int32_t id(const Vec2d& p) const {
-        return static_cast<std::int32_t>(std::lower_bound(at.begin(), at.end(), p, before) -
-                                         at.begin());
+        return static_cast<std::int32_t>(
+            std::lower_bound(at.begin(), at.begin() + sorted, p, before) - at.begin());
     }
 };
 
