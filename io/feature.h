@@ -27,7 +27,8 @@ enum class Role : std::uint8_t {
     obstacle,  // stands in the way, need not be scanned
     room,      // a space that people call a room; no wall
     outline,   // the free space itself; its rings are walls
-    drawing,   // leaves, swings, panes, labels: no wall
+    opening,   // leaves, swings, panes, sills of a drawing: no wall, but they close the outline
+    drawing,   // labels, dimensions, hatches: nothing
 };
 
 struct Feature {

@@ -175,9 +175,19 @@ std::vector<Polygon> unite(const std::vector<Polygon>& polygons, double snap_m) 
 std::vector<Polygon> subtract(const std::vector<Polygon>& from, const std::vector<Polygon>& what,
                               double snap_m) {
     if (from.empty() || what.empty()) return from;
-    return polygons_in(checked(GEOSDifferencePrec_r(context(), polygons_of(unite(from, snap_m)).get(),
-                                                    polygons_of(unite(what, snap_m)).get(), snap_m),
-                               "a difference"));
+    return polygons_in(
+        checked(GEOSDifferencePrec_r(context(), polygons_of(unite(from, snap_m)).get(),
+                                     polygons_of(unite(what, snap_m)).get(), snap_m),
+                "a difference"));
+}
+
+std::vector<Polygon> intersect(const std::vector<Polygon>& a, const std::vector<Polygon>& b,
+                               double snap_m) {
+    if (a.empty() || b.empty()) return {};
+    return polygons_in(
+        checked(GEOSIntersectionPrec_r(context(), polygons_of(unite(a, snap_m)).get(),
+                                       polygons_of(unite(b, snap_m)).get(), snap_m),
+                "an intersection"));
 }
 
 std::vector<Polygon> grow(const std::vector<Polygon>& polygons, double distance_m) {
@@ -200,13 +210,6 @@ std::vector<Line> node(const std::vector<Line>& lines, double snap_m) {
     if (lines.empty()) return {};
     return lines_in(
         checked(GEOSUnaryUnionPrec_r(context(), lines_of(lines).get(), snap_m), "noding"));
-}
-
-std::vector<Polygon> faces(const std::vector<Line>& noded) {
-    if (noded.empty()) return {};
-    const Geometry lines = lines_of(noded);
-    const GEOSGeometry* one = lines.get();
-    return polygons_in(checked(GEOSPolygonize_r(context(), &one, 1), "finding faces"));
 }
 
 double inscribed_radius(const Polygon& p) {

@@ -22,6 +22,9 @@ std::vector<Polygon> unite(const std::vector<Polygon>& polygons, double snap_m);
 std::vector<Polygon> subtract(const std::vector<Polygon>& from, const std::vector<Polygon>& what,
                               double snap_m);
 
+std::vector<Polygon> intersect(const std::vector<Polygon>& a, const std::vector<Polygon>& b,
+                               double snap_m);
+
 // Grows (or shrinks, distance < 0) with mitred corners, so that right angles stay.
 std::vector<Polygon> grow(const std::vector<Polygon>& polygons, double distance_m);
 
@@ -30,9 +33,6 @@ std::vector<Polygon> strips(const std::vector<Line>& lines, double distance_m, b
 
 // Splits lines at every crossing and touch, drops repeated stretches.
 std::vector<Line> node(const std::vector<Line>& lines, double snap_m);
-
-// The bounded faces of noded linework.
-std::vector<Polygon> faces(const std::vector<Line>& noded);
 
 // Radius of the largest circle inside.
 double inscribed_radius(const Polygon& polygon);

@@ -27,8 +27,8 @@ constexpr std::array<WordRole, 44> words = {{
     {"porta", Role::door},        {"obstacle", Role::obstacle}, {"furniture", Role::obstacle},
     {"furn", Role::obstacle},     {"tree", Role::obstacle},    {"room", Role::room},
     {"space", Role::room},        {"raum", Role::room},        {"outline", Role::outline},
-    {"boundary", Role::outline},  {"opening", Role::drawing},  {"room_bbox", Role::drawing},
-    {"swing", Role::drawing},     {"text", Role::drawing},     {"dim", Role::drawing},
+    {"boundary", Role::outline},  {"opening", Role::opening},  {"room_bbox", Role::drawing},
+    {"swing", Role::opening},     {"text", Role::drawing},     {"dim", Role::drawing},
     {"hatch", Role::drawing},     {"title", Role::drawing},    {"label", Role::drawing},
     {"annotation", Role::drawing}, {"furniture_text", Role::drawing},
 }};

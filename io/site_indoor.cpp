@@ -27,32 +27,24 @@ std::vector<Polygon> enclosed(const std::vector<Line>& walls) {
     return planar::grow(shells, -gap_half_m);
 }
 
-// The faces between walls that a person could stand in, without the slits inside of walls.
-std::vector<Polygon> standable_faces(const std::vector<Line>& walls, double snap_m,
-                                     double radius_m) {
-    const std::vector<Polygon> inside = enclosed(walls);
-    if (inside.empty()) return {};
-    const planar::Region region(inside);
-    Blocking lines;
-    lines.add(walls, WallClass::wall);
-    lines.add_rings(inside, WallClass::wall);
-    std::vector<Polygon> out;
-    for (const Polygon& face : planar::faces(planar::node(lines.lines, snap_m))) {
-        if (planar::inscribed_radius(face) < radius_m) continue;
-        const std::vector<Polygon> core = planar::grow({face}, -slit_half_m);
-        for (const Polygon& part : planar::grow(core, slit_half_m)) {
-            if (planar::inscribed_radius(part) < radius_m) continue;
-            if (!region.contains(core.front().outer.front())) continue;
-            out.push_back(part);
-        }
+// The parts of `space` in which a person could stand: what is left when the walls are grown by
+// half a slit's width, grown back. The inside of doubled walls is gone then, open ends or not.
+std::vector<Polygon> standable(const std::vector<Polygon>& space, const std::vector<Line>& walls,
+                               double snap_m, double radius_m) {
+    std::vector<Polygon> grown;
+    for (const Polygon& core :
+         planar::subtract(space, planar::strips(walls, slit_half_m, false), snap_m)) {
+        if (planar::inscribed_radius(core) < radius_m - slit_half_m) continue;
+        append(grown, planar::grow({core}, slit_half_m));
     }
-    return out;
+    return planar::intersect(grown, space, snap_m);
 }
 
 }  // namespace
 
 // Free space is the outline when there is one, else the named rooms and the doorways between
-// them, else the faces between walls. Solids (thick walls, obstacles) are taken out of it.
+// them, else what the walls enclose. Solids (thick walls, obstacles) and slits are
+// taken out of it.
 void build_indoor(const Sorted& in, const SiteOptions& options, Site& site) {
     const double snap = options.snap_m;
     std::vector<Polygon> solids = in.polys(Role::wall);
@@ -90,18 +82,19 @@ void build_indoor(const Sorted& in, const SiteOptions& options, Site& site) {
         space = in.polys(Role::room);
         append(space, doorways);
     } else {
-        std::vector<Line> closed = blocking.lines;  // doors and windows shut, to tell inside
-        closed.insert(closed.end(), in.line(Role::door).begin(), in.line(Role::door).end());
-        closed.insert(closed.end(), in.line(Role::window).begin(), in.line(Role::window).end());
-        space = standable_faces(closed, snap, options.stand_radius_m);
-        append(space, doorways);
+        std::vector<Line> closed = blocking.lines;  // everything shut, to tell inside
+        for (const Role r : {Role::door, Role::window, Role::opening}) {
+            closed.insert(closed.end(), in.line(r).begin(), in.line(r).end());
+        }
+        space = enclosed(closed);
     }
-    site.buildings = static_cast<std::int64_t>(
-        in.polys(Role::room).empty() ? space.size() : in.polys(Role::room).size());
     std::vector<Polygon> taken = solid_walls;
     append(taken, obstacles);
     const std::vector<Polygon> free =
-        planar::subtract(planar::unite(space, snap), taken, snap);
+        standable(planar::subtract(planar::unite(space, snap), taken, snap), blocking.lines, snap,
+                  options.stand_radius_m);
+    site.buildings = static_cast<std::int64_t>(
+        in.polys(Role::room).empty() ? free.size() : in.polys(Role::room).size());
     site.area_m2 = planar::area_m2(free);
 
     const planar::Region standing(free);

@@ -43,7 +43,7 @@ void crop(FeatureSet& set, const std::vector<double>& crop_m, CleaningCounts& co
 void settle_invalid(FeatureSet& set, const SiteOptions& options, const std::string& name,
                     CleaningCounts& counts) {
     for (Feature& f : set.features) {
-        if (f.role == Role::drawing) continue;
+        if (f.role == Role::drawing || f.role == Role::opening) continue;
         std::vector<Polygon> valid;
         for (Polygon& p : f.polygons) {
             const std::string reason = planar::invalid_reason(p);
@@ -116,7 +116,7 @@ SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::str
     Sorted sorted;
     for (Feature& f : set.features) {
         each_point(f, [&](Vec2d& v) { v -= site.origin; });
-        if (f.role == Role::drawing) ++site.counts.ignored;
+        if (f.role == Role::drawing || f.role == Role::opening) ++site.counts.ignored;
         const auto role = static_cast<std::size_t>(f.role);
         for (Polygon& p : f.polygons) sorted.polygons[role].push_back(std::move(p));
         for (Line& line : f.lines) sorted.lines[role].push_back(std::move(line));

@@ -27,7 +27,7 @@ struct SiteOptions {
     bool doors_open = true;
     WindowMode windows = WindowMode::wall;
     InvalidPolygons invalid = InvalidPolygons::error;
-    double stand_radius_m = 0.3;    // indoors: a face is a room when such a circle fits in
+    double stand_radius_m = 0.3;    // indoors: a space is a room when such a circle fits in
 };
 
 struct SiteResult {
@@ -46,8 +46,8 @@ SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::str
 
 // The features by role, valid, in the site's frame.
 struct Sorted {
-    std::array<std::vector<Polygon>, 8> polygons;  // by Role
-    std::array<std::vector<Line>, 8> lines;
+    std::array<std::vector<Polygon>, 9> polygons;  // by Role
+    std::array<std::vector<Line>, 9> lines;
     const std::vector<Polygon>& polys(Role r) const { return polygons[static_cast<std::size_t>(r)]; }
     const std::vector<Line>& line(Role r) const { return lines[static_cast<std::size_t>(r)]; }
 };
