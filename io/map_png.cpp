@@ -260,10 +260,17 @@ void draw_plan(cairo_t* c, const MapInput& in, const MapLayout& l, const Style& 
         links.push_back({l.x(a), l.y(a), l.x(b), l.y(b)});
     }
     if (!links.empty()) {
+        // Along a corridor everyone may see everyone: such a plan gets finer, paler links, and the
+        // field stays visible below them.
+        double links_px = 0;
+        for (const Segment& s : links) links_px += Vec2d(s.x1 - s.x0, s.y1 - s.y0).norm();
+        const double area = static_cast<double>(l.map_w) * l.map_h;
+        const double width = std::min(style.link, std::max(0.07 * area / links_px, 0.7 * l.u));
+        const double share = width / style.link;
         cairo_push_group(c);
-        cased(c, links, white, style.link, ink, style.link + 1.6 * l.u);
+        cased(c, links, white, width, ink, width + 1.6 * l.u * share);
         cairo_pop_group_to_source(c);
-        cairo_paint_with_alpha(c, 0.8);
+        cairo_paint_with_alpha(c, 0.5 + 0.3 * share);
     }
     // The main network last, so that it lies on top.
     for (const bool main : {false, true}) {
