@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 namespace vfplan {
 namespace {
@@ -68,8 +69,12 @@ CandidateResult sorted_result(const CandidatePool& pool) {
     std::iota(order.begin(), order.end(), 0U);
     const auto& c = pool.candidates();
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        if ((c[a].cell < 0) != (c[b].cell < 0)) return c[b].cell < 0;
-        return c[a].cell >= 0 && c[a].cell < c[b].cell;
+        const auto key = [&](const Candidate& k) {
+            const bool of_user = k.kind == CandidateKind::required ||
+                                 k.kind == CandidateKind::existing;
+            return std::tuple(of_user, of_user ? 0.0 : k.at.y(), of_user ? 0.0 : k.at.x());
+        };
+        return key(c[a]) < key(c[b]);
     });
     for (const std::size_t i : order) {
         out.candidates.push_back(c[i]);
@@ -112,8 +117,8 @@ std::vector<std::uint8_t> CandidatePool::covered() const {
     return out;
 }
 
-std::int64_t split_paths(CandidatePool& pool, const std::vector<CellPath>& paths,
-                         const CandidateOptions& options, CandidateKind kind) {
+std::vector<Stuck> split_paths(CandidatePool& pool, const std::vector<CellPath>& paths,
+                               const CandidateOptions& options, CandidateKind kind) {
     struct Part {
         std::size_t path;
         std::size_t from;
@@ -125,7 +130,7 @@ std::int64_t split_paths(CandidatePool& pool, const std::vector<CellPath>& paths
     for (std::size_t i = 0; i < paths.size(); ++i) {
         if (paths[i].size() > 1) open.push_back({i, 0, paths[i].size() - 1});
     }
-    std::vector<std::uint8_t> falls_short(paths.size(), 0);
+    std::vector<Stuck> stuck;
     for (int depth = 0; !open.empty(); ++depth) {
         std::vector<std::uint8_t> apart(open.size(), 0);
         pool.threads().for_each(
@@ -145,7 +150,7 @@ std::int64_t split_paths(CandidatePool& pool, const std::vector<CellPath>& paths
             if (apart[i] == 0) continue;
             const Part& p = open[i];
             if (p.to < p.from + 2 || depth == depth_most) {
-                falls_short[p.path] = 1;
+                stuck.push_back({p.path, paths[p.path][p.from], paths[p.path][p.to]});
                 continue;
             }
             const std::size_t middle = arc_middle(grid, paths[p.path], p.from, p.to);
@@ -156,7 +161,44 @@ std::int64_t split_paths(CandidatePool& pool, const std::vector<CellPath>& paths
         pool.add(middles, kind);
         open = std::move(next);
     }
-    return std::count(falls_short.begin(), falls_short.end(), 1);
+    return stuck;
+}
+
+void split_between_cells(CandidatePool& pool, const std::vector<Stuck>& stuck,
+                         const CandidateOptions& options) {
+    struct Half {
+        Vec2d from;
+        Vec2d to;
+        CoverageRow row_from;
+        CoverageRow row_to;
+    };
+    const Viewer& viewer = pool.viewer();
+    std::vector<Half> open;
+    for (const Stuck& s : stuck) {
+        open.push_back({pool.ground().grid.centre(s.from), pool.ground().grid.centre(s.to),
+                        pool.row_at(s.from), pool.row_at(s.to)});
+    }
+    while (!open.empty()) {
+        std::vector<Half> apart;
+        std::vector<Vec2d> middles;
+        for (Half& h : open) {
+            if ((h.to - h.from).norm() / 2 < least_step_m ||
+                overlap(options.ratio, viewer.pieces(), h.row_from, h.row_to) >=
+                    options.threshold) {
+                continue;
+            }
+            middles.emplace_back((h.from + h.to) / 2);
+            apart.push_back(std::move(h));
+        }
+        const std::vector<CoverageRow> rows = viewer.rows(pool.threads(), middles);
+        open.clear();
+        for (std::size_t i = 0; i < apart.size(); ++i) {
+            Half& h = apart[i];
+            open.push_back({h.from, middles[i], std::move(h.row_from), rows[i]});
+            open.push_back({middles[i], h.to, rows[i], std::move(h.row_to)});
+        }
+        pool.add_points(middles, CandidateKind::link);
+    }
 }
 
 CandidateResult find_candidates(const Viewer& viewer, const Threads& threads, const Ground& ground,
@@ -185,7 +227,10 @@ CandidateResult find_candidates(const Viewer& viewer, const Threads& threads, co
     for (const Ridge& ridge : graph.ridges) {
         for (CellPath& path : paths_of(pool, graph, ridge)) paths.push_back(std::move(path));
     }
-    report.ridges_short_of_overlap = split_paths(pool, paths, options, CandidateKind::split);
+    const std::vector<Stuck> stuck = split_paths(pool, paths, options, CandidateKind::split);
+    std::vector<std::uint8_t> falls_short(paths.size(), 0);
+    for (const Stuck& s : stuck) falls_short[s.path] = 1;
+    report.ridges_short_of_overlap = std::count(falls_short.begin(), falls_short.end(), 1);
 
     pool.add_points(options.required, CandidateKind::required);
     pool.add_points(options.existing, CandidateKind::existing);

@@ -24,8 +24,9 @@ struct CandidateOptions {
 struct Ground {
     const Grid& grid;
     const Raster<float>& field;              // NaN where no station can stand
-    const Raster<std::uint8_t>& passable;    // free cells that no wall cuts
-    const Raster<std::uint8_t>& domain;      // passable and VF above the threshold
+    const Raster<std::uint8_t>& standable;   // cells where a station may stand
+    const Raster<std::uint8_t>& closed;      // links between them that walls part
+    const Raster<std::uint8_t>& domain;      // no closed link, and VF above the threshold
 };
 
 struct CandidateReport {
@@ -38,7 +39,7 @@ struct CandidateReport {
 };
 
 struct CandidateResult {
-    std::vector<Candidate> candidates;  // by cell, then the user's points
+    std::vector<Candidate> candidates;  // by y, then x; the user's points last, as given
     CoverageTable table;
     std::vector<PieceStatus> reach;     // covered = by some candidate; else why not
     CandidateReport report;
@@ -59,7 +60,7 @@ public:
 
     // Adds the cells that are not in it yet. Rows are computed in parallel.
     void add(const std::vector<std::int64_t>& cells, CandidateKind kind);
-    // Adds points of the user.
+    // Adds points that are no cell's centre.
     void add_points(const std::vector<Vec2d>& points, CandidateKind kind);
     bool has(std::int64_t cell) const { return index_.contains(cell); }
     const CoverageRow& row_at(std::int64_t cell) const { return rows_[index_.at(cell)]; }
@@ -83,10 +84,23 @@ private:
 // A line of cells whose two ends are candidates.
 using CellPath = std::vector<std::int64_t>;
 
+// Two neighbouring cells of a path that are still apart when splitting ends.
+struct Stuck {
+    std::size_t path = 0;
+    std::int64_t from = 0;
+    std::int64_t to = 0;
+};
+
 // Ridge splitting: while two neighbours along a path overlap less than the threshold, the arc's
-// middle is inserted, down to 2 cells or depth 16. Returns how many paths stay short of it.
-std::int64_t split_paths(CandidatePool& pool, const std::vector<CellPath>& paths,
-                         const CandidateOptions& options, CandidateKind kind);
+// middle is inserted, down to 2 cells or depth 16. Returns where it ended short of the threshold.
+std::vector<Stuck> split_paths(CandidatePool& pool, const std::vector<CellPath>& paths,
+                               const CandidateOptions& options, CandidateKind kind);
+
+// Goes on between two cells' centres, where splitting of cells had to end: halves the straight
+// way until neighbours overlap enough or stand closer than least_step_m.
+inline constexpr double least_step_m = 0.05;
+void split_between_cells(CandidatePool& pool, const std::vector<Stuck>& stuck,
+                         const CandidateOptions& options);
 
 // For each piece without a candidate: a free cell that sees enough of it becomes one. Returns
 // the reach of every piece afterwards.

@@ -8,18 +8,19 @@
 #include <vector>
 
 #include "kernels/grid.h"
-#include "kernels/skeleton.h"
+#include "kernels/free_cells.h"
 
 namespace vfplan {
 
-// A flood from many sources over passable cells, nearest first: distance in steps of 10 and 14,
+// A flood from many sources over free cells that no wall parts, nearest first: distance in steps of 10 and 14,
 // so that it is a whole number, and the neighbour that it came from. Ties fall the same way on
 // every machine.
 class Flood {
 public:
-    Flood(const Grid& grid, const Raster<std::uint8_t>& passable)
-        : grid_(grid), passable_(passable), distance_(passable.size(), unreached),
-          from_(passable.size(), -1), source_(passable.size(), -1) {}
+    // `closed`: see closed_links().
+    Flood(const Grid& grid, const Raster<std::uint8_t>& free, const Raster<std::uint8_t>& closed)
+        : grid_(grid), free_(free), closed_(closed), distance_(free.size(), unreached),
+          from_(free.size(), -1), source_(free.size(), -1) {}
 
     static constexpr std::int32_t unreached = std::numeric_limits<std::int32_t>::max();
 
@@ -38,9 +39,9 @@ public:
             for (std::size_t k = 0; k < 8; ++k) {
                 const std::int32_t x = grid_.ix(cell) + around_dx[k];
                 const std::int32_t y = grid_.iy(cell) + around_dy[k];
-                if (!grid_.inside(x, y)) continue;
+                if ((closed_[index(cell)] >> k & 1U) != 0 || !grid_.inside(x, y)) continue;
                 const std::int64_t n = grid_.id(x, y);
-                if (passable_[index(n)] == 0) continue;
+                if (free_[index(n)] == 0) continue;
                 const std::int32_t far = d + (k % 2 == 0 ? 10 : 14);
                 if (far >= distance_[index(n)]) continue;
                 distance_[index(n)] = far;
@@ -65,7 +66,8 @@ private:
     static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
     using Entry = std::pair<std::int32_t, std::int64_t>;
     const Grid& grid_;
-    const Raster<std::uint8_t>& passable_;
+    const Raster<std::uint8_t>& free_;
+    const Raster<std::uint8_t>& closed_;
     std::vector<std::int32_t> distance_;
     std::vector<std::int64_t> from_;
     std::vector<std::int32_t> source_;

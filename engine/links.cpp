@@ -4,10 +4,12 @@
 #include "engine/candidates.h"
 #include "engine/flood.h"
 #include "engine/graph.h"
-#include "kernels/skeleton.h"
+#include "kernels/free_cells.h"
 
 namespace vfplan {
 namespace {
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 std::vector<std::int32_t> parts_of(const CandidatePool& pool, const CandidateOptions& options) {
     CoverageTable table;
@@ -36,7 +38,7 @@ void link_parts(CandidatePool& pool, const CandidateOptions& options, CandidateR
     report.parts_before_links = count_parts(part);
     std::map<std::pair<std::int64_t, std::int64_t>, bool> tried;
     for (int round = 0; round < rounds_most && count_parts(part) > 1; ++round) {
-        Flood flood(ground.grid, ground.passable);
+        Flood flood(ground.grid, ground.standable, ground.closed);
         for (std::size_t i = 0; i < pool.candidates().size(); ++i) {
             const std::int64_t cell = pool.candidates()[i].cell;
             if (cell >= 0) flood.add_source(cell, part[i]);
@@ -49,7 +51,7 @@ void link_parts(CandidatePool& pool, const CandidateOptions& options, CandidateR
             for (std::size_t k = 0; k < 4; ++k) {
                 const std::int32_t x = grid.ix(cell) + around_dx[k];
                 const std::int32_t y = grid.iy(cell) + around_dy[k];
-                if (!grid.inside(x, y)) continue;
+                if ((ground.closed[at(cell)] >> k & 1U) != 0 || !grid.inside(x, y)) continue;
                 const std::int64_t n = grid.id(x, y);
                 if (flood.distance(n) == Flood::unreached ||
                     flood.source(n) == flood.source(cell)) {
@@ -71,7 +73,8 @@ void link_parts(CandidatePool& pool, const CandidateOptions& options, CandidateR
             }
         }
         if (paths.empty()) break;
-        split_paths(pool, paths, options, CandidateKind::link);
+        const std::vector<Stuck> stuck = split_paths(pool, paths, options, CandidateKind::link);
+        split_between_cells(pool, stuck, options);
         part = parts_of(pool, options);
     }
     report.parts = count_parts(part);

@@ -175,7 +175,7 @@ std::vector<PieceStatus> rescue_pieces(CandidatePool& pool, const CandidateOptio
     // One cell often serves many pieces: take cells in the order of pieces, skip what is covered
     // by then.
     std::vector<PieceStatus> reach(covered.size(), PieceStatus::covered);
-    Flood ways_out(pool.ground().grid, pool.ground().passable);
+    Flood ways_out(pool.ground().grid, pool.ground().standable, pool.ground().closed);
     for (const Candidate& c : pool.candidates()) {
         if (c.cell >= 0) ways_out.add_source(c.cell, 0);
     }

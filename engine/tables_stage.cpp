@@ -172,13 +172,11 @@ Tables make_tables(const Config& config, const Prepared& p, const std::string& k
                  p.site.origin, p.site.crs_wkt, key};
 
     progress.stage("skeleton");
-    Raster<std::uint8_t> passable = p.standable;
-    const Raster<std::uint8_t> cut = cut_cells(p.grid, p.standable, p.site.walls);
-    Raster<std::uint8_t> domain(passable.size(), 0);
+    const Raster<std::uint8_t> closed = closed_links(p.grid, p.standable, p.site.walls);
+    Raster<std::uint8_t> domain(closed.size(), 0);
     const auto threshold = static_cast<float>(config.field.threshold_rad);
-    for (std::size_t i = 0; i < passable.size(); ++i) {
-        if (cut[i] != 0) passable[i] = 0;
-        domain[i] = passable[i] != 0 && out.field.vf_rad[i] >= threshold ? 1 : 0;
+    for (std::size_t i = 0; i < domain.size(); ++i) {
+        domain[i] = p.standable[i] != 0 && closed[i] == 0 && out.field.vf_rad[i] >= threshold;
     }
     DistanceField distance;
     distance.resize(p.grid.size());
@@ -201,7 +199,7 @@ Tables make_tables(const Config& config, const Prepared& p, const std::string& k
     }
 
     progress.stage("coverage");
-    const Ground ground{p.grid, out.field.vf_rad, passable, domain};
+    const Ground ground{p.grid, out.field.vf_rad, p.standable, closed, domain};
     CandidateOptions options;
     options.ratio = ratio_of(config.overlap.ratio);
     options.threshold = config.overlap.threshold;

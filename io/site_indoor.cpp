@@ -16,6 +16,12 @@ void append(std::vector<Polygon>& to, const std::vector<Polygon>& more) {
     to.insert(to.end(), more.begin(), more.end());
 }
 
+// True when a two-point line has p and q on different sides and lies between them.
+bool separates(const Line& line, const Vec2d& p, const Vec2d& q) {
+    return orient(line[0], line[1], p) * orient(line[0], line[1], q) < 0 &&
+           orient(p, q, line[0]) * orient(p, q, line[1]) <= 0;
+}
+
 // What lies inside when nothing that names rooms or an outline is given: the ground that a disc
 // of radius gap_half_m cannot reach from outside.
 std::vector<Polygon> enclosed(const std::vector<Line>& walls) {
@@ -99,8 +105,12 @@ void build_indoor(const Sorted& in, const SiteOptions& options, Site& site) {
 
     const planar::Region standing(free);
     const planar::Region solid(taken);
+    std::vector<Wall> walls = walls_from_lines(blocking, snap, site.counts);
+    std::vector<Line> wall_lines;
+    for (const Wall& wall : walls) wall_lines.push_back({wall.a, wall.b});
+    const planar::LineIndex index(wall_lines);
     Box box;
-    for (Wall& wall : walls_from_lines(blocking, snap, site.counts)) {
+    for (Wall& wall : walls) {
         const Vec2d e = (wall.b - wall.a).normalized();
         const Vec2d to_left(-e.y(), e.x());
         const Vec2d middle = (wall.a + wall.b) / 2;
@@ -108,10 +118,18 @@ void build_indoor(const Sorted& in, const SiteOptions& options, Site& site) {
             return solid.contains(middle + sign * beside_line_m / 2 * to_left);
         };
         const bool thick = solid_beside(1) || solid_beside(-1);
+        // Doubled walls may run closer than we look: nothing may stand between.
+        const auto open = [&](const Vec2d& p) {
+            const Vec2d from = middle + (p - middle) * 1e-3;
+            for (const std::size_t i : index.near((from + p) / 2, (p - from).norm() / 2)) {
+                if (separates(wall_lines[i], from, p)) return false;
+            }
+            return standing.contains(p);
+        };
         const auto is_free = [&](double sign) {
-            return standing.contains(middle + sign * beside_line_m * to_left) ||
-                   (thick && standing.contains(middle + sign * beside_solid_m * to_left) &&
-                    !solid_beside(sign));
+            return open(middle + sign * beside_line_m * to_left) ||
+                   (thick && !solid_beside(sign) &&
+                    open(middle + sign * beside_solid_m * to_left));
         };
         wall.free_side[left] = is_free(1);
         wall.free_side[right] = is_free(-1);

@@ -28,7 +28,7 @@ inline constexpr std::array<std::string_view, 9> candidate_kind_names = {
 
 struct Candidate {
     Vec2d at{0, 0};            // site frame, metres
-    std::int64_t cell = -1;    // of the grid; -1 for a point that the user gave
+    std::int64_t cell = -1;    // of the grid; -1 for a point that is no cell's centre
     CandidateKind kind = CandidateKind::joint;
     float vf_rad = 0;          // VF there
 };

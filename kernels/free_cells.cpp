@@ -1,7 +1,6 @@
 #include "kernels/free_cells.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace vfplan {
@@ -69,10 +68,9 @@ Raster<std::uint8_t> free_cells(const Grid& grid, const std::vector<Ring>& free_
     return flips;
 }
 
-Raster<std::uint8_t> cut_cells(const Grid& grid, const Raster<std::uint8_t>& free,
-                               const std::vector<Wall>& walls) {
-    Raster<std::uint8_t> cut(free.size(), 0);
-    constexpr std::array<std::array<std::int32_t, 2>, 4> ahead = {{{1, 0}, {0, 1}, {1, 1}, {-1, 1}}};
+Raster<std::uint8_t> closed_links(const Grid& grid, const Raster<std::uint8_t>& free,
+                                  const std::vector<Wall>& walls) {
+    Raster<std::uint8_t> closed(free.size(), 0);
     for (const Wall& wall : walls) {
         const Vec2d a = wall.a - grid.origin;
         const Vec2d b = wall.b - grid.origin;
@@ -98,21 +96,23 @@ Raster<std::uint8_t> cut_cells(const Grid& grid, const Raster<std::uint8_t>& fre
             for (std::int32_t ix = col_from; ix <= col_to; ++ix) {
                 const auto here = static_cast<std::size_t>(grid.id(ix, iy));
                 if (free[here] == 0) continue;
-                for (const auto& step : ahead) {
-                    if (!grid.inside(ix + step[0], iy + step[1])) continue;
-                    const auto there =
-                        static_cast<std::size_t>(grid.id(ix + step[0], iy + step[1]));
-                    if (free[there] == 0 || (cut[here] != 0 && cut[there] != 0)) continue;
+                for (unsigned k = 0; k < 4; ++k) {  // the other four are their neighbours'
+                    const std::int32_t x = ix + around_dx[k];
+                    const std::int32_t y = iy + around_dy[k];
+                    if (!grid.inside(x, y)) continue;
+                    const auto there = static_cast<std::size_t>(grid.id(x, y));
+                    if (free[there] == 0 || (closed[here] >> k & 1U) != 0) continue;
                     if (segments_meet(wall.a, wall.b,
                                       grid.centre(static_cast<std::int64_t>(here)),
                                       grid.centre(static_cast<std::int64_t>(there)))) {
-                        cut[here] = cut[there] = 1;
+                        closed[here] = static_cast<std::uint8_t>(closed[here] | 1U << k);
+                        closed[there] = static_cast<std::uint8_t>(closed[there] | 1U << (k + 4));
                     }
                 }
             }
         }
     }
-    return cut;
+    return closed;
 }
 
 }  // namespace vfplan

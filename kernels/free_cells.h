@@ -17,9 +17,13 @@ Grid make_grid(const Box& extent, double cell_m, double snap_m);
 // Time O(cells + edges x rows they span).
 Raster<std::uint8_t> free_cells(const Grid& grid, const std::vector<Ring>& free_region);
 
-// 1 for free cells that a wall separates from one of their eight free neighbours: walls thinner
-// than a cell would otherwise be invisible to everything that walks from cell to cell.
-Raster<std::uint8_t> cut_cells(const Grid& grid, const Raster<std::uint8_t>& free,
-                               const std::vector<Wall>& walls);
+// The eight neighbours of a cell, counter-clockwise from east; even ones share an edge.
+inline constexpr std::int32_t around_dx[8] = {1, 1, 0, -1, -1, -1, 0, 1};
+inline constexpr std::int32_t around_dy[8] = {0, 1, 1, 1, 0, -1, -1, -1};
+
+// Bit k of a free cell is set when a wall separates its centre from that of its free neighbour k:
+// walls thinner than a cell would otherwise be invisible to all that walks from cell to cell.
+Raster<std::uint8_t> closed_links(const Grid& grid, const Raster<std::uint8_t>& free,
+                                  const std::vector<Wall>& walls);
 
 }  // namespace vfplan

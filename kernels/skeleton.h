@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernels/distance.h"
+#include "kernels/free_cells.h"
 #include "kernels/grid.h"
 
 namespace vfplan {
@@ -24,10 +25,6 @@ Raster<std::uint8_t> thin(const Grid& grid, const Raster<std::uint8_t>& domain,
 
 // Average outward flux of the distance gradient through the eight neighbours of a cell.
 double outward_flux(const Grid& grid, const DistanceField& distance, std::int64_t cell);
-
-// The eight neighbours, counter-clockwise from east; even ones share an edge.
-inline constexpr std::int32_t around_dx[8] = {1, 1, 0, -1, -1, -1, 0, 1};
-inline constexpr std::int32_t around_dy[8] = {0, 1, 1, 1, 0, -1, -1, -1};
 
 // Bit k is set where neighbour k is set.
 unsigned neighbourhood(const Grid& grid, const Raster<std::uint8_t>& set, std::int64_t cell);
