@@ -140,7 +140,7 @@ std::string finish_plan(const RunDir& dir, const Config& config, const FieldTabl
     add_times(summary, progress);
     summary["result_sha256"] = result_hash(field, tables, planned.plan);
     write_text(dir.file("summary.json"), summary.dump(2) + "\n");
-    return plan_text(planned, tables);
+    return plan_text(planned, tables, config);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/tables_stage.h"
 #include "engine/viewer.h"
@@ -132,6 +133,7 @@ Planned plan_tables(const Config& config, CoverageTables& t, bool confirm, const
         if (corrected.empty()) {
             progress.stage("metrics");
             out.metrics = measure(threads, input, out.plan, t.walls, config.scanner.range_max_m);
+            out.joining = find_joining(threads, input, options, out.plan);
             return out;
         }
         out.rows_corrected += static_cast<std::int64_t>(corrected.size());
@@ -213,9 +215,12 @@ nlohmann::ordered_json summary_of(const Planned& p, const CoverageTables& t) {
             ++stations;
             length += s.new_length_m;
         }
-        networks.push_back({{"stations", stations}, {"length_m", length}});
+        networks.push_back({{"stations", stations},
+                            {"length_m", length},
+                            {"joins_main_at", p.joining.joins_at[static_cast<std::size_t>(n)]}});
     }
     j["network_list"] = networks;
+    j["networks_by_min_len"] = p.joining.networks_by_min_len;
     return j;
 }
 
@@ -236,7 +241,41 @@ void write_plan_files(const RunDir& dir, const Config& config, const FieldTable&
     }
 }
 
-std::string plan_text(const Planned& p, const CoverageTables& t) {
+namespace {
+
+// Why there is more than one network.
+std::string apart_text(const Planned& p, const Config& config) {
+    const Metrics& m = p.metrics;
+    std::int64_t enclosed = 0;
+    double least = 1;
+    for (const double at : p.joining.joins_at) {
+        if (at > 0) {
+            least = std::min(least, at);
+        } else {
+            ++enclosed;
+        }
+    }
+    std::string out = fmt::format(
+        "apart        {} pieces are seen from {} other network{} only (summary.json: "
+        "network_list)\n",
+        m.pieces_unreached, m.networks - 1, m.networks == 2 ? "" : "s");
+    if (enclosed > 0) {
+        out += fmt::format("             {} of them see nothing that is seen from the main one: "
+                           "walls enclose them\n",
+                           enclosed);
+    }
+    if (const std::int64_t weak = m.networks - 1 - enclosed; weak > 0) {
+        out += fmt::format("             {} would join at overlap.threshold = {:.3f} (now {}); "
+                           "with ratio min_len there would be {} networks\n",
+                           weak, std::floor(least * 1000) / 1000, config.overlap.threshold,
+                           p.joining.networks_by_min_len);
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string plan_text(const Planned& p, const CoverageTables& t, const Config& config) {
     const Metrics& m = p.metrics;
     const auto share = [](double part, double whole) { return whole > 0 ? 100 * part / whole : 0; };
     std::string out = fmt::format(
@@ -245,20 +284,16 @@ std::string plan_text(const Planned& p, const CoverageTables& t) {
         p.plan.stations.size(), m.networks, m.networks == 1 ? "" : "s", p.plan.links.size(),
         t.candidates.size(), m.lower_bound, m.pieces_covered, m.pieces_coverable,
         share(m.length_covered_m, m.length_coverable_m), m.length_coverable_m);
-    if (m.pieces_unreached > 0) {
-        out += fmt::format(
-            "unreached    {} pieces are seen only by {} other network{}, which no chain of overlaps "
-            "of {} joins to the main one\n",
-            m.pieces_unreached, m.networks - 1, m.networks == 2 ? "" : "s", "the threshold");
-    }
+    if (m.networks > 1) out += apart_text(p, config);
     const std::int64_t nobody = t.pieces.size() - m.pieces_coverable;
     if (nobody > 0) {
         out += fmt::format("no viewpoint {} pieces, {:.2f} % of all wall length (pieces.csv)\n",
                            nobody, share(m.length_all_m - m.length_coverable_m, m.length_all_m));
     }
-    out += fmt::format("network      WAPL {:.3f}, weakest needed overlap {:.3f}, {} bridges, {} "
+    out += fmt::format("network      WAPL {:.3f}, weakest needed overlap {:.3f}, {} bridge{}, {} "
                        "articulation stations\n",
-                       m.wapl, m.bottleneck_overlap, m.bridges, m.articulation_stations);
+                       m.wapl, m.bottleneck_overlap, m.bridges, m.bridges == 1 ? "" : "s",
+                       m.articulation_stations);
     return out;
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/config.h"
+#include "engine/joining.h"
 #include "engine/metrics.h"
 #include "engine/planner.h"
 #include "engine/progress.h"
@@ -16,6 +17,7 @@ struct Planned {
     Plan plan;
     PlanReport report;
     Metrics metrics;
+    Joining joining;
     std::int64_t rows_corrected = 0;  // stations whose row the exact kernel saw otherwise
 };
 
@@ -37,6 +39,7 @@ void write_plan_files(const RunDir& dir, const Config& config, const FieldTable&
                       const CoverageTables& tables, const Planned& planned);
 
 // What a person wants to know of it, a few lines.
-std::string plan_text(const Planned& planned, const CoverageTables& tables);
+std::string plan_text(const Planned& planned, const CoverageTables& tables,
+                      const Config& config);
 
 }  // namespace vfplan

@@ -1,0 +1,23 @@
+// Why networks stay apart: at which overlap they would join, if at any.
+#pragma once
+
+#include <vector>
+
+#include "engine/planner.h"
+
+namespace vfplan {
+
+struct Joining {
+    // For each network: the largest threshold at which a chain of candidates joins it to the main
+    // one; 1 for the main one itself, 0 when nothing that it sees is seen from there, however
+    // little (an enclosed courtyard, say).
+    std::vector<double> joins_at;
+    // How many networks there would be with min_len at the same threshold.
+    std::int64_t networks_by_min_len = 0;
+};
+
+// Over all candidates, by the ratio of `options`. Nothing is computed for a single network.
+Joining find_joining(const Threads& threads, const PlanInput& input, const PlanOptions& options,
+                     const Plan& plan);
+
+}  // namespace vfplan
