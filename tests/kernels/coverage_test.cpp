@@ -23,9 +23,9 @@ CoverageRow row_at(const std::vector<Wall>& walls, const Pieces& pieces, const V
 }
 
 TEST(Pieces, SidesAreCutIntoTheFewestEqualPieces) {
-    for (const auto& [length, count] : {std::pair(0.3, 1), std::pair(5.0, 1), std::pair(5.001, 2),
-                                        std::pair(10.0, 2), std::pair(10.5, 3),
-                                        std::pair(99.0, 20)}) {
+    for (const auto& [length, count] :
+         {std::pair(0.3, 1), std::pair(5.0, 1), std::pair(5.001, 2), std::pair(10.0, 2),
+          std::pair(10.5, 3), std::pair(99.0, 20)}) {
         const Pieces p = cut_into_pieces({wall({1, 1}, {1, 1 + length})}, 5);
         ASSERT_EQ(p.size(), 2 * count) << length;  // two sides
         for (int i = 0; i < count; ++i) {
@@ -117,8 +117,7 @@ TEST(Coverage, PartsOfABrokenPieceAddUp) {
     ASSERT_FALSE(row.empty());
     EXPECT_EQ(row[0].piece, 0);
     EXPECT_FLOAT_EQ(row[0].fraction, 0.8F);
-    EXPECT_NEAR(static_cast<double>(row[0].angle_rad), 2 * (std::atan(0.5) - std::atan(0.1)),
-                1e-6);
+    EXPECT_NEAR(static_cast<double>(row[0].angle_rad), 2 * (std::atan(0.5) - std::atan(0.1)), 1e-6);
 }
 
 TEST(Coverage, IncidenceAndRangeLimitWhatCounts) {

@@ -52,8 +52,8 @@ TEST(Distance, FewOutsideCellsMakeManyTies) {
 }
 
 TEST(Distance, FullEmptyAndThinDomains) {
-    for (const auto& [nx, ny] : {std::pair(1, 1), std::pair(1, 9), std::pair(9, 1),
-                                 std::pair(8, 8)}) {
+    for (const auto& [nx, ny] :
+         {std::pair(1, 1), std::pair(1, 9), std::pair(9, 1), std::pair(8, 8)}) {
         for (const std::uint8_t value : {std::uint8_t{0}, std::uint8_t{1}}) {
             const Picture p = test::blank(nx, ny, value);
             expect_brute_force(p, test::distance_of(p));

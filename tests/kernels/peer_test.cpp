@@ -23,6 +23,8 @@ struct SiteCase {
     SiteKind kind;
 };
 
+void PrintTo(const SiteCase& test, std::ostream* out) { *out << test.path; }
+
 // The paper's presets.
 struct Preset {
     Scanner scanner;
@@ -91,10 +93,10 @@ public:
         expansion_.compute_visibility(point(eye), *face, seen);
         double outside = 0;
         for (auto e = seen.edges_begin(); e != seen.edges_end(); ++e) {
-            const Vec2d p = vec(e->source()->point());
-            const Vec2d q = vec(e->target()->point());
+            const K::Point_2& p = e->source()->point();
+            const K::Point_2& q = e->target()->point();
             if (!on_square(p, q)) continue;
-            const double a = angle_between_rad(p - eye, q - eye);
+            const double a = angle_between_rad(vec(p) - eye, vec(q) - eye);
             outside += std::min(a, 2 * pi - a);
         }
         return 2 * pi - outside;
@@ -102,8 +104,10 @@ public:
 
 private:
     static K::Point_2 point(const Vec2d& p) { return {p.x(), p.y()}; }
-    static Vec2d vec(const K::Point_2& p) { return {CGAL::to_double(p.x()), CGAL::to_double(p.y())}; }
-    bool on_square(const Vec2d& p, const Vec2d& q) const {
+    static Vec2d vec(const K::Point_2& p) {
+        return {CGAL::to_double(p.x()), CGAL::to_double(p.y())};
+    }
+    bool on_square(const K::Point_2& p, const K::Point_2& q) const {  // exactly
         return (p.x() == lo_.x() && q.x() == lo_.x()) || (p.x() == hi_.x() && q.x() == hi_.x()) ||
                (p.y() == lo_.y() && q.y() == lo_.y()) || (p.y() == hi_.y() && q.y() == hi_.y());
     }
@@ -119,18 +123,18 @@ class ExactAgainstCgal : public testing::TestWithParam<SiteCase> {};
 
 INSTANTIATE_TEST_SUITE_P(
     Sites, ExactAgainstCgal,
-    testing::Values(
-        SiteCase{"town_bellevue/bellevue_976x893.geojson", SiteKind::outdoor},
-        SiteCase{"town_bellevue/bellevue_b_976x893.geojson", SiteKind::outdoor},
-        SiteCase{"town_karhula/karhula_976x893.geojson", SiteKind::outdoor},
-        SiteCase{"town_helsinki_centre/helsinki_centre_full.geojson", SiteKind::outdoor},
-        SiteCase{"plan_houseexpo/houseexpo_0a1b29db.geojson", SiteKind::indoor},
-        SiteCase{"plan_house_overland/house_overland.geojson", SiteKind::indoor},
-        SiteCase{"plans_offices_schools/office_off_2.geojson", SiteKind::indoor},
-        SiteCase{"plans_offices_schools/office_village.geojson", SiteKind::indoor},
-        SiteCase{"plans_offices_schools/office_magenta.geojson", SiteKind::indoor},
-        SiteCase{"plans_offices_schools/school_franch1.geojson", SiteKind::indoor},
-        SiteCase{"plans_offices_schools/school_vipiteno1.geojson", SiteKind::indoor}),
+    testing::Values(SiteCase{"town_bellevue/bellevue_976x893.geojson", SiteKind::outdoor},
+                    SiteCase{"town_bellevue/bellevue_b_976x893.geojson", SiteKind::outdoor},
+                    SiteCase{"town_karhula/karhula_976x893.geojson", SiteKind::outdoor},
+                    SiteCase{"town_helsinki_centre/helsinki_centre_full.geojson",
+                             SiteKind::outdoor},
+                    SiteCase{"plan_houseexpo/houseexpo_0a1b29db.geojson", SiteKind::indoor},
+                    SiteCase{"plan_house_overland/house_overland.geojson", SiteKind::indoor},
+                    SiteCase{"plans_offices_schools/office_off_2.geojson", SiteKind::indoor},
+                    SiteCase{"plans_offices_schools/office_village.geojson", SiteKind::indoor},
+                    SiteCase{"plans_offices_schools/office_magenta.geojson", SiteKind::indoor},
+                    SiteCase{"plans_offices_schools/school_franch1.geojson", SiteKind::indoor},
+                    SiteCase{"plans_offices_schools/school_vipiteno1.geojson", SiteKind::indoor}),
     name_of);
 
 TEST_P(ExactAgainstCgal, SeesTheSameAngle) {

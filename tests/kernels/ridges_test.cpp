@@ -63,8 +63,8 @@ TEST(Ridges, TieInAClusterGoesToTheLowerRowThenColumn) {
 }
 
 TEST(Ridges, TwoJointsShareARidge) {
-    const Picture p = draw({"#...........#", ".#.........#.", "..#########..", ".#.........#.",
-                            "#...........#"});
+    const Picture p =
+        draw({"#...........#", ".#.........#.", "..#########..", ".#.........#.", "#...........#"});
     const RidgeGraph g = take_apart(p);
     ASSERT_EQ(g.joints.size(), 2U);
     EXPECT_LT(g.joints[0], g.joints[1]);  // by the first cell of their clusters

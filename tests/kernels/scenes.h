@@ -103,8 +103,7 @@ inline bool inside_a_square(const std::vector<Wall>& walls, const Vec2d& eye) {
     return false;
 }
 
-inline Vec2d random_eye(const std::vector<Wall>& squares, const Box& box,
-                        std::mt19937_64& random) {
+inline Vec2d random_eye(const std::vector<Wall>& squares, const Box& box, std::mt19937_64& random) {
     std::uniform_real_distribution<double> x(box.min.x(), box.max.x());
     std::uniform_real_distribution<double> y(box.min.y(), box.max.y());
     while (true) {

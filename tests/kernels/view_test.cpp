@@ -103,7 +103,8 @@ TEST_P(ViewTest, SidesAndDirectionOfSpans) {
 TEST_P(ViewTest, FromOutsideTheHullOfAllWalls) {
     const auto building = rectangle({0, 0}, {8, 4});
     const Vec2d eye(-50, -3);
-    EXPECT_NEAR(vf(building, eye), angle_between_rad(Vec2d(8, 0) - eye, Vec2d(0, 4) - eye), tolerance());
+    EXPECT_NEAR(vf(building, eye), angle_between_rad(Vec2d(8, 0) - eye, Vec2d(0, 4) - eye),
+                tolerance());
     const Vec2d beside(4, 100);  // sees the north wall only
     const View v = view(building, beside);
     ASSERT_EQ(v.size(), 1U);
@@ -122,7 +123,7 @@ TEST_P(ViewTest, PillarCastsItsShadow) {
     ASSERT_EQ(east.size(), 2U);
     EXPECT_NEAR(east[0].second, 10 - 18 * 0.5 / 6, 1e-6);
     EXPECT_NEAR(east[1].first, 10 + 18 * 0.5 / 6, 1e-6);
-    expect_stretch(v, 7, 0, 1);                     // the pillar's west face
+    expect_stretch(v, 7, 0, 1);                    // the pillar's west face
     for (const std::int32_t hidden : {4, 5, 6}) {  // and nothing of its other faces
         EXPECT_TRUE(stretches(v, hidden).empty());
     }
@@ -244,7 +245,8 @@ TEST_P(ViewTest, IncidenceLimit) {
     for (const double limit : {15.0, 45.0, 60.0}) {
         EXPECT_NEAR(vf(walls, {0, 3}, {0, 1000, limit}), 2 * limit * pi / 180, tolerance());
     }
-    EXPECT_NEAR(vf(walls, {0, 3}, {0, 5, 80}), 2 * std::acos(0.6), tolerance());  // range is tighter
+    EXPECT_NEAR(vf(walls, {0, 3}, {0, 5, 80}), 2 * std::acos(0.6),
+                tolerance());  // range is tighter
     EXPECT_NEAR(vf(walls, {0, 3}, {4, 1000, 60}), 2 * (pi / 3 - std::acos(0.75)), tolerance());
     const auto square = rectangle({0, 0}, {10, 10});
     EXPECT_NEAR(vf(square, {5, 5}, {0, 100, 30}), 8 * pi / 6, tolerance());
