@@ -4,10 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 
 #include "engine/generate.h"
 #include "engine/pipeline.h"
 #include "io/files.h"
+#include "kernels/embree_scene.h"
 #include "kernels/error.h"
 #include "vfplan_version.h"
 
@@ -28,7 +30,8 @@ All parameters: docs/parameters.md; any of them: --set field.cell_m=2)";
 
 constexpr const char* exit_codes =
     "Exit codes: 0 done; 1 verify said no; 2 usage or configuration; 3 input data; 4 reading or "
-    "writing; 75 stopped early, resumable.";
+    "writing; 75 stopped early, resumable.\n"
+    "VFPLAN_EMBREE_ISA=sse2|avx2|avx512|... holds Embree to an instruction set.";
 
 // Options that several commands share.
 struct Shared {
@@ -105,6 +108,7 @@ int verify(const Shared& s) {
 }
 
 int dispatch(int argc, char** argv) {
+    if (const char* isa = std::getenv("VFPLAN_EMBREE_ISA")) limit_embree_isa(isa);
     CLI::App app{"Plans connected networks of static-LiDAR stations from city maps and floor "
                  "plans.",
                  "vfplan"};

@@ -35,9 +35,14 @@ private:
     unsigned saved_;
 };
 
+std::string& device_settings() {
+    static std::string settings;
+    return settings;
+}
+
 // One device for the process. No "threads=": that would throttle TBB everywhere.
 RTCDevice device() {
-    static const RTCDevice d = rtcNewDevice(nullptr);
+    static const RTCDevice d = rtcNewDevice(device_settings().c_str());
     if (d == nullptr) throw Error(Exit::io, "Embree found no usable processor features");
     return d;
 }
@@ -194,6 +199,15 @@ void EmbreeScene::first_hits(const Vec2d& eye, View& out) const {
             m.trace_all(eye, d, wall);
         },
         out);
+}
+
+void limit_embree_isa(const std::string& isa) {
+    constexpr std::array<const char*, 5> known = {"sse2", "sse4.2", "avx", "avx2", "avx512"};
+    if (std::find(known.begin(), known.end(), isa) == known.end()) {
+        throw UsageError("VFPLAN_EMBREE_ISA = " + isa +
+                         ": must be sse2, sse4.2, avx, avx2 or avx512");
+    }
+    device_settings() = "isa=" + isa;
 }
 
 int default_rays(double range_max_m, double partition_m) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "kernels/view.h"
@@ -31,6 +32,10 @@ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+// Holds Embree to an older instruction set (sse2, sse4.2, avx, avx2, avx512), to show that the
+// results do not depend on it. Call before the first scene. Throws UsageError for another name.
+void limit_embree_isa(const std::string& isa);
 
 // How many directions keep neighbouring rays within a few pieces of each other at full range.
 int default_rays(double range_max_m, double partition_m);
