@@ -1,0 +1,283 @@
+// From tables to plans: networks, pruning, loops, bound.
+#include "engine/planner.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/engine/hand_made.h"
+
+namespace vfplan {
+namespace {
+
+using test::hand_made;
+using test::HandMade;
+using test::random_hand_made;
+
+std::vector<std::int32_t> candidates_of(const Plan& plan, std::int32_t network) {
+    std::vector<std::int32_t> out;
+    for (const Station& s : plan.stations) {
+        if (s.network == network) out.push_back(s.candidate);
+    }
+    return out;
+}
+
+Plan plan_of(const HandMade& h, const PlanOptions& options, PlanReport* report = nullptr) {
+    PlanReport mine;
+    return make_plan(h.input(), options, report == nullptr ? mine : *report);
+}
+
+const PlanOptions greedy_alone{"greedy", false, OverlapRatio::mean_len, 0.3};
+const PlanOptions refined{"refined", false, OverlapRatio::mean_len, 0.3};
+const PlanOptions with_loops{"refined", true, OverlapRatio::mean_len, 0.3};
+
+// Components {0, 1} and {2, 3}; the second can cover more. Piece 3 is seen from both, piece 5
+// from nowhere.
+HandMade two_parts() {
+    return hand_made({1, 2, 4, 5, 6, 3}, {{0, 3}, {1, 3}, {2, 3}, {4}}, {{0, 1, 0.5}, {2, 3, 0.6}});
+}
+
+TEST(Planner, EachComponentGetsItsNetworkTheLargestFirst) {
+    const Plan plan = plan_of(two_parts(), greedy_alone);
+    EXPECT_EQ(candidates_of(plan, 0), (std::vector<std::int32_t>{2, 3}));
+    EXPECT_EQ(candidates_of(plan, 1), (std::vector<std::int32_t>{1, 0}));
+    for (std::size_t i = 0; i < plan.stations.size(); ++i) {
+        EXPECT_EQ(plan.stations[i].order, static_cast<std::int32_t>(i));
+    }
+}
+
+TEST(Planner, PiecesOfOtherNetworksAreUnreached) {
+    const Plan plan = plan_of(two_parts(), refined);
+    EXPECT_EQ(plan.pieces,
+              (std::vector<PieceStatus>{PieceStatus::unreached, PieceStatus::unreached,
+                                        PieceStatus::covered, PieceStatus::covered,
+                                        PieceStatus::covered, PieceStatus::no_viewpoint}));
+}
+
+TEST(Planner, ReasonsForBeingUncoverableAreKept) {
+    HandMade h = two_parts();
+    h.reach[5] = PieceStatus::off_candidates;
+    EXPECT_EQ(plan_of(h, refined).pieces[5], PieceStatus::off_candidates);
+}
+
+TEST(Planner, LengthsAreCountedOnce) {
+    const Plan plan = plan_of(two_parts(), greedy_alone);
+    ASSERT_EQ(plan.stations.size(), 4U);
+    const std::vector<double> fresh = {9, 6, 2, 1};
+    const std::vector<double> seen = {9, 6, 7, 6};
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_DOUBLE_EQ(plan.stations[i].new_length_m, fresh[i]);
+        EXPECT_DOUBLE_EQ(plan.stations[i].seen_length_m, seen[i]);
+    }
+}
+
+TEST(Planner, ComponentThatAddsNothingGetsNoNetwork) {
+    const HandMade h = hand_made({5, 6}, {{0, 1}, {0}, {1}}, {{1, 2, 0.5}});
+    const Plan plan = plan_of(h, greedy_alone);
+    ASSERT_EQ(plan.stations.size(), 1U);
+    EXPECT_EQ(plan.stations[0].candidate, 0);
+}
+
+TEST(Planner, LinksJoinStationsInOrderWithAllRatios) {
+    const Plan plan = plan_of(two_parts(), greedy_alone);
+    ASSERT_EQ(plan.links.size(), 2U);
+    EXPECT_EQ(plan.links[0].from, 0);
+    EXPECT_EQ(plan.links[0].to, 1);
+    EXPECT_EQ(plan.links[0].overlap, 0.6);
+    EXPECT_EQ(plan.links[1].from, 2);
+    EXPECT_EQ(plan.links[1].to, 3);
+    // Stations 2 and 3 are candidates 1 and 0: 5 m in common of 7 and 6.
+    EXPECT_DOUBLE_EQ(plan.links[1].ratios[0], 5 / 6.0);
+    EXPECT_DOUBLE_EQ(plan.links[1].ratios[1], 10 / 13.0);
+    EXPECT_DOUBLE_EQ(plan.links[1].ratios[2], 5 / 8.0);
+}
+
+TEST(Planner, RequiredAndExistingStay) {
+    // 0 sees everything; 2 (behind 1) sees nothing new but is required.
+    HandMade h =
+        hand_made({9, 1}, {{0, 1}, {0}, {1}, {0}}, {{0, 1, 0.5}, {1, 2, 0.5}, {0, 3, 0.9}});
+    EXPECT_EQ(plan_of(h, refined).stations.size(), 1U);
+    for (const CandidateKind kind : {CandidateKind::required, CandidateKind::existing}) {
+        h.candidates[2].kind = kind;
+        const auto stations = candidates_of(plan_of(h, refined), 0);
+        EXPECT_EQ(std::set(stations.begin(), stations.end()), (std::set<std::int32_t>{0, 1, 2}));
+    }
+    // Even alone, seeing nothing.
+    HandMade lonely = hand_made({1}, {{0}, {}}, {});
+    lonely.candidates[1].kind = CandidateKind::required;
+    EXPECT_EQ(plan_of(lonely, refined).stations.size(), 2U);
+}
+
+TEST(Prune, LastChosenGoesFirst) {
+    const HandMade h =
+        hand_made({1, 1}, {{0, 1}, {0}, {1}}, {{0, 1, 0.5}, {0, 2, 0.5}, {1, 2, 0.5}});
+    std::vector<std::int32_t> count = {2, 2};
+    EXPECT_EQ(prune_network(h.input(), {1, 2, 0}, {0, 0, 0}, count), (Chosen{1, 2}));
+    EXPECT_EQ(count, (std::vector<std::int32_t>{1, 1}));
+    count = {2, 2};
+    EXPECT_EQ(prune_network(h.input(), {0, 1, 2}, {0, 0, 0}, count), (Chosen{0}));
+    count = {2, 2};
+    EXPECT_EQ(prune_network(h.input(), {0, 1, 2}, {0, 1, 0}, count), (Chosen{0, 1}));
+}
+
+TEST(Prune, WhatConnectsStays) {
+    const HandMade h = hand_made({1, 1}, {{0}, {}, {1}}, {{0, 1, 0.5}, {1, 2, 0.5}});
+    std::vector<std::int32_t> count = {1, 1};
+    EXPECT_EQ(prune_network(h.input(), {0, 1, 2}, {0, 0, 0}, count), (Chosen{0, 1, 2}));
+}
+
+TEST(Prune, KeepsCoverageAndConnectionAndLeavesNothingToTake) {
+    std::size_t pruned = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        const HandMade h = random_hand_made(seed, 30, 40);
+        const Chosen before = h.everyone();
+        std::vector<std::uint8_t> kept(30, 0);
+        kept[seed % 30] = 1;
+        std::vector<std::int32_t> count(40, 0);
+        for (const Seen& s : h.table.seen) ++count[static_cast<std::size_t>(s.piece)];
+        const Chosen after = prune_network(h.input(), before, kept, count);
+        pruned += before.size() - after.size();
+        EXPECT_TRUE(h.connected(after));
+        EXPECT_NE(std::find(after.begin(), after.end(), static_cast<std::int32_t>(seed % 30)),
+                  after.end());
+        for (std::int32_t p = 0; p < 40; ++p) {
+            EXPECT_EQ(h.covered_by(after, p), h.covered_by(before, p));
+            EXPECT_EQ(count[static_cast<std::size_t>(p)],
+                      std::count_if(after.begin(), after.end(),
+                                    [&](std::int32_t c) { return h.covers(c, p); }));
+        }
+    }
+    EXPECT_GT(pruned, 300U);
+}
+
+TEST(Planner, RefinedNeverHasMoreStationsAndCoversTheSame) {
+    std::int64_t fewer = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        const HandMade h = random_hand_made(seed, 40, 50);
+        PlanReport report;
+        const Plan a = plan_of(h, greedy_alone);
+        const Plan b = plan_of(h, refined, &report);
+        EXPECT_EQ(a.pieces, b.pieces);
+        EXPECT_EQ(report.greedy_stations, static_cast<std::int64_t>(a.stations.size()));
+        EXPECT_EQ(report.greedy_stations - report.pruned_stations,
+                  static_cast<std::int64_t>(b.stations.size()));
+        EXPECT_TRUE(h.connected(candidates_of(b, 0)));
+        fewer += report.pruned_stations;
+    }
+    EXPECT_GT(fewer, 5);
+}
+
+TEST(Loops, FewestCandidatesThenTheHighestOverlap) {
+    // Stations 0 - 1. Candidates 2 and 3 close the cycle alone, 4 - 5 together.
+    const std::vector<OverlapPair> edges = {{0, 1, 0.5},  {0, 2, 0.4}, {1, 2, 0.4}, {0, 3, 0.9},
+                                            {1, 3, 0.35}, {0, 4, 1},   {4, 5, 1},   {1, 5, 1}};
+    const HandMade h = hand_made({1}, {{0}, {}, {}, {}, {}, {}}, edges);
+    EXPECT_EQ(close_loops(h.input(), {0, 1}), (Chosen{0, 1, 2}));  // its weakest link is stronger
+    const HandMade longer =
+        hand_made({1}, {{0}, {}, {}, {}, {}, {}}, {{0, 1, 0.5}, {0, 4, 1}, {4, 5, 1}, {1, 5, 1}});
+    const Chosen closed = close_loops(longer.input(), {0, 1});
+    EXPECT_EQ(std::set(closed.begin(), closed.end()), (std::set<std::int32_t>{0, 1, 4, 5}));
+}
+
+TEST(Loops, NothingIsAddedWhereAllIsWellOrNothingHelps) {
+    const HandMade triangle = hand_made(
+        {1}, {{0}, {}, {}, {}}, {{0, 1, 0.5}, {0, 2, 0.5}, {1, 2, 0.5}, {0, 3, 0.5}, {1, 3, 0.5}});
+    EXPECT_EQ(close_loops(triangle.input(), {0, 1, 2}), (Chosen{0, 1, 2}));
+    const HandMade path = hand_made({1}, {{0}, {}, {}}, {{0, 1, 0.5}, {1, 2, 0.5}});
+    EXPECT_EQ(close_loops(path.input(), {0, 1}), (Chosen{0, 1}));
+    EXPECT_EQ(close_loops(path.input(), {1}), (Chosen{1}));
+}
+
+TEST(Loops, StationsStayLooseOnlyWhereNoOtherWayLeadsToTheNetwork) {
+    std::size_t added = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        const HandMade h = random_hand_made(seed, 40, 30);
+        auto wanted = h.wanted();
+        const Chosen before = greedy_network(h.input(), h.everyone(), {}, wanted);
+        const Chosen after = close_loops(h.input(), before);
+        ASSERT_TRUE(std::equal(before.begin(), before.end(), after.begin()));
+        added += after.size() - before.size();
+        EXPECT_TRUE(h.connected(after));
+        Chosen nodes = after;
+        std::sort(nodes.begin(), nodes.end());
+        const Cuts cuts = find_cuts(induced(h.graph, nodes));
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            if (cuts.on_cycle[i] != 0 || nodes.size() < 2) continue;
+            // From here through candidates that are no stations: no other station may be met.
+            std::set<std::int32_t> reached = {nodes[i]};
+            std::vector<std::int32_t> stack = {nodes[i]};
+            while (!stack.empty()) {
+                const std::int32_t c = stack.back();
+                stack.pop_back();
+                h.graph.each(c, [&](std::int32_t n, double) {
+                    const bool station = std::binary_search(nodes.begin(), nodes.end(), n);
+                    EXPECT_FALSE(station && n != nodes[i] && c != nodes[i]);
+                    if (!station && reached.insert(n).second) stack.push_back(n);
+                });
+            }
+        }
+    }
+    EXPECT_GT(added, 10U);
+}
+
+TEST(Planner, LoopsAreCountedBeforeAndAfter) {
+    const HandMade h = hand_made({5, 4, 1}, {{0}, {1}, {2}, {}},
+                                 {{0, 1, 0.5}, {1, 2, 0.5}, {1, 3, 0.5}, {2, 3, 0.5}});
+    PlanReport report;
+    const Plan plan = plan_of(h, with_loops, &report);
+    EXPECT_EQ(report.before_loops, 3);
+    EXPECT_EQ(report.loose_before, 3);
+    EXPECT_EQ(report.loose_after, 1);  // 0 hangs on 1 whatever is added
+    EXPECT_EQ(plan.stations.size(), 4U);
+    EXPECT_EQ(plan_of(h, refined).stations.size(), 3U);
+}
+
+// Fewest candidates that cover everything coverable, by trying all sets.
+int fewest(const HandMade& h) {
+    const auto n = static_cast<int>(h.candidates.size());
+    int best = n;
+    for (unsigned set = 0; set < 1U << n; ++set) {
+        Chosen chosen;
+        for (int c = 0; c < n; ++c) {
+            if ((set >> c & 1U) != 0) chosen.push_back(c);
+        }
+        if (static_cast<int>(chosen.size()) >= best) continue;
+        bool all = true;
+        for (std::int32_t p = 0; p < h.pieces.size() && all; ++p) {
+            all = h.reach[static_cast<std::size_t>(p)] != PieceStatus::covered ||
+                  h.covered_by(chosen, p);
+        }
+        if (all) best = static_cast<int>(chosen.size());
+    }
+    return best;
+}
+
+TEST(Bound, NeverAboveTheFewestStations) {
+    std::size_t sum = 0;
+    for (std::uint64_t seed = 0; seed < 25; ++seed) {
+        const HandMade h = random_hand_made(seed, 11, 12);
+        const std::vector<std::int32_t> pieces = independent_pieces(h.input());
+        sum += pieces.size();
+        EXPECT_LE(pieces.size(), static_cast<std::size_t>(fewest(h)));
+        EXPECT_LE(pieces.size(), plan_of(h, with_loops).stations.size());
+        EXPECT_EQ(plan_of(h, refined).bound_pieces, pieces);
+        EXPECT_TRUE(std::is_sorted(pieces.begin(), pieces.end()));
+        for (std::int32_t c = 0; c < 11; ++c) {  // no candidate covers two of them
+            EXPECT_LE(std::count_if(pieces.begin(), pieces.end(),
+                                    [&](std::int32_t p) { return h.covers(c, p); }),
+                      1);
+        }
+        for (const std::int32_t p : pieces) {
+            EXPECT_EQ(h.reach[static_cast<std::size_t>(p)], PieceStatus::covered);
+        }
+    }
+    EXPECT_GT(sum, 40U);  // else it bounds nothing
+}
+
+TEST(Bound, IsTightForCandidatesWithNothingInCommon) {
+    const HandMade h = hand_made({1, 1, 1, 1}, {{0, 1}, {2}, {3}}, {{0, 1, 0.5}, {1, 2, 0.5}});
+    EXPECT_EQ(independent_pieces(h.input()).size(), 3U);
+}
+
+}  // namespace
+}  // namespace vfplan
