@@ -115,9 +115,10 @@ bool segments_cross(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d&
     return u <= 0 && v <= 0;
 }
 
-TEST(CutCells, EqualBruteForceOnRandomWalls) {
+TEST(ClosedLinks, EqualBruteForceOnRandomWalls) {
     std::mt19937_64 random(2);
     std::uniform_real_distribution<double> place(-3, 28);
+    std::int64_t closed_in_all = 0;
     for (int i = 0; i < 40; ++i) {
         const Grid g = make_grid({{0, 0}, {25, 20}}, i % 2 == 0 ? 1 : 2.5, 0.001);
         Raster<std::uint8_t> free(static_cast<std::size_t>(g.size()));
@@ -128,35 +129,38 @@ TEST(CutCells, EqualBruteForceOnRandomWalls) {
         }
         walls.push_back(wall({3, 4}, {3, 9}));
         walls.push_back(wall({5, 6}, {12, 6}));
-        const auto cut = cut_cells(g, free, walls);
+        const auto closed = closed_links(g, free, walls);
         for (std::int64_t c = 0; c < g.size(); ++c) {
-            bool want = false;
-            for (std::int32_t dy = -1; dy <= 1; ++dy) {
-                for (std::int32_t dx = -1; dx <= 1; ++dx) {
-                    const std::int32_t x = g.ix(c) + dx;
-                    const std::int32_t y = g.iy(c) + dy;
-                    if ((dx == 0 && dy == 0) || !g.inside(x, y)) continue;
-                    const std::int64_t n = g.id(x, y);
-                    if (free[static_cast<std::size_t>(n)] == 0) continue;
+            for (unsigned k = 0; k < 8; ++k) {
+                const std::int32_t x = g.ix(c) + around_dx[k];
+                const std::int32_t y = g.iy(c) + around_dy[k];
+                bool want = false;
+                if (g.inside(x, y) && free[static_cast<std::size_t>(c)] != 0 &&
+                    free[static_cast<std::size_t>(g.id(x, y))] != 0) {
                     for (const Wall& w : walls) {
-                        want = want || segments_cross(w.a, w.b, g.centre(c), g.centre(n));
+                        want = want || segments_cross(w.a, w.b, g.centre(c), g.centre(g.id(x, y)));
                     }
                 }
+                ASSERT_EQ(closed[static_cast<std::size_t>(c)] >> k & 1U, want ? 1U : 0U)
+                    << "cell " << g.ix(c) << ", " << g.iy(c) << ", neighbour " << k;
+                closed_in_all += want ? 1 : 0;
             }
-            want = want && free[static_cast<std::size_t>(c)] != 0;
-            ASSERT_EQ(cut[static_cast<std::size_t>(c)], want ? 1 : 0)
-                << "cell " << g.ix(c) << ", " << g.iy(c) << ", case " << i;
         }
     }
+    EXPECT_GT(closed_in_all, 1000);
 }
 
-TEST(CutCells, ThinWallPartsItsTwoSides) {
+TEST(ClosedLinks, ThinWallPartsItsTwoSides) {
     const Grid g = make_grid({{0, 0}, {8, 6}}, 1, 0.001);
     const Raster<std::uint8_t> free(static_cast<std::size_t>(g.size()), 1);
-    const auto cut = cut_cells(g, free, {wall({4, -1}, {4, 8})});
+    const auto closed = closed_links(g, free, {wall({4, -1}, {4, 8})});
     for (std::int64_t c = 0; c < g.size(); ++c) {
-        const bool beside = g.ix(c) == 3 || g.ix(c) == 4;
-        EXPECT_EQ(cut[static_cast<std::size_t>(c)], beside ? 1 : 0);
+        for (unsigned k = 0; k < 8; ++k) {
+            const std::int32_t x = g.ix(c) + around_dx[k];
+            const bool inside = g.inside(x, g.iy(c) + around_dy[k]);
+            const bool across = inside && (g.ix(c) < 4) != (x < 4);
+            EXPECT_EQ(closed[static_cast<std::size_t>(c)] >> k & 1U, across ? 1U : 0U);
+        }
     }
 }
 
