@@ -1,0 +1,165 @@
+// `verify` says no to a plan that somebody changed.
+#include <algorithm>
+#include <functional>
+
+#include "io/tables.h"
+#include "program.h"
+
+namespace vfplan::test {
+namespace {
+
+// One planned crop of a town, and its tables, for all tests here.
+class Verify : public ::testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        scratch = new Scratch;
+        const std::string site = generated(*scratch, "town");
+        vfplan_expect(0, with_sets({"run", config_file("town.toml"), "--out", run(), "--quiet"},
+                                   {"site.input=" + site, "site.crop_m=[0,0,300,200]",
+                                    "field.cell_m=4", "output.formats=['csv']"}));
+    }
+    static void TearDownTestSuite() { delete scratch; }
+
+    static std::string run() { return *scratch / "run"; }
+
+    // Verifies a copy of the run after `change`; its answer.
+    static Output after(const std::function<void(const Path&)>& change) {
+        const Path copy = *scratch / "copy";
+        std::filesystem::remove_all(copy);
+        std::filesystem::copy(run(), copy);
+        change(copy);
+        return vfplan_process({"verify", copy});
+    }
+
+    static Output after_plan(const std::function<void(PlanTable&)>& change) {
+        return after([&](const Path& dir) {
+            PlanTable plan = read_plan(dir / "plan.h5");
+            change(plan);
+            write_plan(dir / "plan.h5", plan);
+        });
+    }
+
+    static void expect_no(const Output& o) {
+        EXPECT_EQ(o.code, 1) << o.out << o.err;
+        EXPECT_NE(o.out.find("NO: the plan does not hold"), std::string::npos) << o.out << o.err;
+    }
+
+    // No yes and no crash: exit code 1, or 4 with the file's name where it cannot be read at all.
+    static void expect_refused(const Output& o, const std::string& file) {
+        EXPECT_TRUE(o.code == 1 || (o.code == 4 && o.err.find(file) != std::string::npos))
+            << o.code << "\n"
+            << o.out << o.err;
+    }
+
+    static Scratch* scratch;
+};
+
+Scratch* Verify::scratch = nullptr;
+
+TEST_F(Verify, YesBefore) {
+    const Output o = after_plan([](PlanTable&) {});
+    EXPECT_EQ(o.code, 0) << o.out << o.err;
+}
+
+TEST_F(Verify, NoWhenAStationIsGone) {
+    expect_no(after_plan([](PlanTable& t) {
+        t.plan.stations.erase(t.plan.stations.begin());
+        std::vector<Link> links;
+        for (Link l : t.plan.links) {
+            if (l.from == 0 || l.to == 0) continue;
+            --l.from;
+            --l.to;
+            links.push_back(l);
+        }
+        t.plan.links = links;
+    }));
+}
+
+TEST_F(Verify, NoWhenAStationMoved) {
+    expect_no(after_plan([](PlanTable& t) {
+        t.plan.stations[0].candidate = t.plan.stations[0].candidate == 0 ? 1 : 0;
+    }));
+}
+
+TEST_F(Verify, NoWhenLinksAreGone) {
+    expect_no(after_plan([](PlanTable& t) { t.plan.links.clear(); }));
+}
+
+TEST_F(Verify, NoWhenALinkIsMadeUp) {
+    expect_no(after_plan([](PlanTable& t) {
+        // The first station and the one farthest from the network's start that it has no link to.
+        const auto linked = [&](std::int32_t b) {
+            return std::any_of(t.plan.links.begin(), t.plan.links.end(),
+                               [&](const Link& l) { return l.from == 0 && l.to == b; });
+        };
+        for (auto b = static_cast<std::int32_t>(t.plan.stations.size()) - 1; b > 0; --b) {
+            if (!linked(b)) {
+                t.plan.links.push_back({0, b, 0.9, {}});
+                return;
+            }
+        }
+    }));
+}
+
+TEST_F(Verify, NoWhenACoveredPieceIsSaidToHaveNoViewpoint) {
+    expect_no(after_plan([](PlanTable& t) {
+        *std::find(t.plan.pieces.begin(), t.plan.pieces.end(), PieceStatus::covered) =
+            PieceStatus::no_viewpoint;
+    }));
+}
+
+TEST_F(Verify, NoWhenTheCertificateNamesPiecesOfOneStation) {
+    expect_no(after_plan([](PlanTable& t) {
+        const CoverageTables c = read_coverage(run() + "/coverage.h5");
+        t.plan.bound_pieces = {c.table.row_begin(0)[0].piece, c.table.row_begin(0)[1].piece};
+        std::sort(t.plan.bound_pieces.begin(), t.plan.bound_pieces.end());
+    }));
+}
+
+TEST_F(Verify, NoWhenTheFieldIsAnother) {
+    expect_no(after([](const Path& dir) {
+        FieldTable field = read_field(dir / "field.h5");
+        for (float& v : field.vf_rad) v *= 0.9F;
+        write_field(dir / "field.h5", field);
+    }));
+}
+
+// Another job's plan has other candidates and pieces.
+TEST_F(Verify, NoToAnotherJobsPlan) {
+    const std::string site = generated(*scratch, "flat");
+    vfplan_expect(
+        0, with_sets({"run", config_file("flat.toml"), "--out", *scratch / "flat", "--quiet"},
+                     {"site.input=" + site, "field.cell_m=0.1", "output.formats=['csv']"}));
+    const auto flat = *scratch / "flat/plan.h5";
+    const auto over = std::filesystem::copy_options::overwrite_existing;
+    expect_refused(
+        after([&](const Path& dir) { std::filesystem::copy_file(flat, dir / "plan.h5", over); }),
+        "plan.h5");
+    std::filesystem::copy_file(run() + "/plan.h5", flat, over);
+    expect_refused(vfplan_process({"verify", *scratch / "flat"}), "plan.h5");
+}
+
+TEST_F(Verify, NoToNumbersOutOfRange) {
+    expect_refused(after_plan([](PlanTable& t) { t.plan.stations[0].candidate = 1'000'000; }),
+                   "plan.h5");
+    expect_refused(after_plan([](PlanTable& t) { t.plan.stations[0].candidate = -1; }), "plan.h5");
+    expect_refused(after_plan([](PlanTable& t) { t.plan.links[0].to = 1'000'000; }), "plan.h5");
+    expect_refused(after_plan([](PlanTable& t) { t.plan.pieces.resize(3); }), "plan.h5");
+    expect_refused(after_plan([](PlanTable& t) { t.plan.bound_pieces[0] = 1'000'000; }), "plan.h5");
+}
+
+TEST_F(Verify, DamagedOrMissingFilesAreNamed) {
+    for (const char* name : {"plan.h5", "coverage.h5", "field.h5"}) {
+        const Output cut = after([&](const Path& dir) {
+            std::filesystem::resize_file(dir / name, std::filesystem::file_size(dir / name) / 2);
+        });
+        EXPECT_EQ(cut.code, 4) << name << "\n" << cut.out << cut.err;
+        EXPECT_NE(cut.err.find(name), std::string::npos) << cut.err;
+        const Output gone = after([&](const Path& dir) { std::filesystem::remove(dir / name); });
+        EXPECT_EQ(gone.code, 4) << name << "\n" << gone.out << gone.err;
+        EXPECT_NE(gone.err.find(name), std::string::npos) << gone.err;
+    }
+}
+
+}  // namespace
+}  // namespace vfplan::test
