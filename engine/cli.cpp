@@ -143,6 +143,9 @@ int dispatch(int argc, char** argv) {
     make->add_option("--out", site_out, "GeoJSON file; default: standard output");
     CLI::App* list = app.add_subcommand("parameters", "Prints all parameters as Markdown");
 
+    if (argc > 1 && argv[1][0] != '-' && app.get_subcommands([&](CLI::App* a) { return a->get_name() == argv[1]; }).empty()) {
+        throw UsageError(fmt::format("{}: no such command; see vfplan --help", argv[1]));
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& e) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 #include "io/files.h"
@@ -148,16 +149,17 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
     return row.back();
 }
 
-[[noreturn]] void unknown_key(const std::vector<Entry>& all, const std::string& key,
+// `known`: what could have been meant.
+[[noreturn]] void unknown_key(const std::set<std::string>& known, const std::string& key,
                               const Place& place) {
-    const auto nearest = std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
-        return edit_distance(key, a.first.key()) < edit_distance(key, b.first.key());
-    });
-    const std::string hint = edit_distance(key, nearest->first.key()) <= 1 + key.size() / 3
-                                 ? fmt::format("; did you mean {}?", nearest->first.key())
-                                 : "";
-    throw UsageError(fmt::format("{} ({}): no such parameter{} docs/parameters.md lists all",
-                                 key, place.text(), hint.empty() ? ";" : hint));
+    const auto nearest = std::min_element(known.begin(), known.end(),
+                                          [&](const std::string& a, const std::string& b) {
+                                              return edit_distance(key, a) < edit_distance(key, b);
+                                          });
+    const bool near = edit_distance(key, *nearest) <= 1 + key.size() / 3;
+    throw UsageError(fmt::format("{} ({}): no such parameter; {}", key, place.text(),
+                                 near ? fmt::format("did you mean {}?", *nearest)
+                                      : "docs/parameters.md lists all"));
 }
 
 void apply(const std::vector<Entry>& all, const std::string& key, const toml::node& value,
@@ -167,7 +169,12 @@ void apply(const std::vector<Entry>& all, const std::string& key, const toml::no
         std::visit(Setter{e.first, value, place}, e.second);
         return;
     }
-    unknown_key(all, key, place);
+    std::set<std::string> known;
+    for (const Entry& e : all) {
+        known.insert(value.is_table() && !e.first.section.empty() ? e.first.section
+                                                                  : e.first.key());
+    }
+    unknown_key(known, key, place);
 }
 
 void apply_table(const std::vector<Entry>& all, const toml::table& table, const std::string& prefix,

@@ -198,7 +198,6 @@ Tables make_tables(const Config& config, const Prepared& p, const std::string& k
             config.field.threshold_rad, scanner.range_min_m, scanner.range_max_m));
     }
 
-    progress.stage("coverage");
     const Ground ground{p.grid, out.field.vf_rad, p.standable, closed, domain};
     CandidateOptions options;
     options.ratio = ratio_of(config.overlap.ratio);

@@ -46,6 +46,10 @@ void settle_invalid(FeatureSet& set, const SiteOptions& options, const std::stri
         if (f.role == Role::drawing || f.role == Role::opening) continue;
         std::vector<Polygon> valid;
         for (Polygon& p : f.polygons) {
+            if (p.outer.size() < 3) {  // a point or a line drawn as a polygon: no area to lose
+                ++counts.dropped_invalid;
+                continue;
+            }
             const std::string reason = planar::invalid_reason(p);
             if (reason.empty()) {
                 valid.push_back(std::move(p));

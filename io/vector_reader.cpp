@@ -11,6 +11,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "kernels/error.h"
 
@@ -53,7 +54,10 @@ using Transform =
 
 Dataset open(const std::filesystem::path& file) {
     static std::once_flag registered;
-    std::call_once(registered, [] { GDALAllRegister(); });
+    std::call_once(registered, [] {
+        GDALAllRegister();
+        CPLSetConfigOption("OSM_USE_CUSTOM_INDEXING", "NO");  // it refuses negative ids
+    });
     if (!std::filesystem::exists(file)) {
         throw IoError(fmt::format("{}: no such file; check site.input (it is relative to the job "
                                   "file)",
@@ -104,12 +108,12 @@ std::vector<OGRLayerH> choose_layers(GDALDatasetH set, const std::string& driver
     return all;
 }
 
-// The words that may tell a feature's role, the most telling first.
-Role role_of(OGRFeatureH feature, SiteKind kind, bool polygon, bool& skip) {
+// The role that a feature's words tell, the most telling first; empty when they say nothing.
+std::optional<Role> role_of(OGRFeatureH feature, bool& skip) {
     for (const char* field : {"class", "Class", "CLASS", "type", "Type", "layer", "Layer"}) {
         const int i = OGR_F_GetFieldIndex(feature, field);
         if (i < 0 || !OGR_F_IsFieldSetAndNotNull(feature, i)) continue;
-        if (const auto role = role_of_word(OGR_F_GetFieldAsString(feature, i))) return *role;
+        if (const auto role = role_of_word(OGR_F_GetFieldAsString(feature, i))) return role;
     }
     // OSM: a polygon is a building only when it says so.
     const int building = OGR_F_GetFieldIndex(feature, "building");
@@ -120,7 +124,7 @@ Role role_of(OGRFeatureH feature, SiteKind kind, bool polygon, bool& skip) {
         if (value.empty() || value == "no") skip = true;
         return Role::building;
     }
-    return default_role(kind, polygon);
+    return std::nullopt;
 }
 
 // Appends a ring or line; `closed` drops the repeated last point.
@@ -178,30 +182,29 @@ void each_point(FeatureSet& set, F&& f) {
     }
 }
 
-double median_edge(const FeatureSet& set) {
-    std::vector<double> lengths;
+double longest_edge(const FeatureSet& set) {
+    double longest = 0;
     const auto add = [&](const Line& line) {
         for (std::size_t i = 1; i < line.size(); ++i) {
-            lengths.push_back((line[i] - line[i - 1]).norm());
+            longest = std::max(longest, (line[i] - line[i - 1]).norm());
         }
     };
     for (const Feature& f : set.features) {
         for (const Polygon& p : f.polygons) add(p.outer);
         for (const Line& line : f.lines) add(line);
     }
-    if (lengths.empty()) return 0;
-    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-    std::nth_element(lengths.begin(), middle, lengths.end());
-    return *middle;
+    return longest;
 }
 
-// Numbers that can be longitudes and latitudes, with edges that no metre could have.
+// Numbers that can be longitudes and latitudes, with no edge that would be longer than 3 cm if
+// they were metres.
 bool looks_like_degrees(FeatureSet& set) {
     bool in_range = true;
     each_point(set, [&](const Feature&, const Vec2d& v) {
         in_range = in_range && std::abs(v.x()) <= 180 && std::abs(v.y()) <= 90;
     });
-    return in_range && median_edge(set) < 0.01;
+    const double edge = longest_edge(set);
+    return in_range && edge > 0 && edge < 0.03;
 }
 
 Srs make_srs(const std::string& definition) {
@@ -315,6 +318,7 @@ FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& o
     const Dataset set = open(file);
     const std::string driver = GDALGetDriverShortName(GDALGetDatasetDriver(set.get()));
     FeatureSet out;
+    std::vector<bool> told;  // by feature: whether its words told its role
     OGRSpatialReferenceH srs = nullptr;
     for (OGRLayerH layer : choose_layers(set.get(), driver, options, file)) {
         if (srs == nullptr) srs = OGR_L_GetSpatialRef(layer);
@@ -333,12 +337,20 @@ FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& o
                 OGR_G_DestroyGeometry(linear);
             }
             bool skip = feature.polygons.empty() && feature.lines.empty();
-            feature.role = role_of(f.get(), options.kind, !feature.polygons.empty(), skip);
+            const std::optional<Role> role = role_of(f.get(), skip);
             if (skip) {
                 ++out.ignored;
                 continue;
             }
+            feature.role = role.value_or(default_role(options.kind, !feature.polygons.empty()));
+            told.push_back(role.has_value());
             out.features.push_back(std::move(feature));
+        }
+    }
+    // A drawing with a layer of walls has furniture, fixtures and text on its other layers.
+    if (driver == "DXF" && std::find(told.begin(), told.end(), true) != told.end()) {
+        for (std::size_t i = 0; i < told.size(); ++i) {
+            if (!told[i]) out.features[i].role = Role::drawing;
         }
     }
     if (CPLGetLastErrorType() >= CE_Failure) {

@@ -34,7 +34,7 @@ struct CleaningCounts {
     std::int64_t features = 0;           // features read
     std::int64_t ignored = 0;            // features of a class or geometry that makes no wall
     std::int64_t repaired = 0;           // invalid polygons made valid (site.invalid = "repair")
-    std::int64_t dropped_invalid = 0;    // invalid polygons left out (site.invalid = "drop")
+    std::int64_t dropped_invalid = 0;    // polygons without area, or invalid with site.invalid = "drop"
     std::int64_t outside_crop = 0;       // features left out by crop_m
     std::int64_t edges_in = 0;           // edges before cleaning
     std::int64_t zero_length = 0;        // edges shorter than the snap
