@@ -1,9 +1,11 @@
 // Rasters drawn as text, and the slow, obvious measures of them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernels/distance.h"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -137,6 +138,26 @@ TEST(Skeleton, SquareGivesAnX) {
         }
     }
     EXPECT_EQ(arms, 4);
+}
+
+TEST(Skeleton, ShallowBendsGrowNoBranches) {
+    Picture disc = blank(45, 45);
+    for (std::int32_t y = 0; y < 45; ++y) {
+        for (std::int32_t x = 0; x < 45; ++x) {
+            disc.at(x, y) = (x - 22) * (x - 22) + (y - 22) * (y - 22) <= 400;
+        }
+    }
+    const Picture centre = skeleton_of(disc);
+    EXPECT_LE(std::count(centre.set.begin(), centre.set.end(), 1), 9);
+    Picture dented = box(41, 11);
+    dented.at(22, 2) = 0;  // one cell off a wall
+    dented.at(30, 12) = 0;
+    const Picture s = skeleton_of(dented);
+    for (std::int32_t x = 2 + 7; x < 2 + 34; ++x) {
+        int in_column = 0;
+        for (std::int32_t y = 0; y < s.grid.ny; ++y) in_column += s.has(x, y) ? 1 : 0;
+        EXPECT_EQ(in_column, 1) << x;
+    }
 }
 
 TEST(Skeleton, DependsOnTheDomainAlone) {

@@ -272,6 +272,48 @@ TEST_P(ViewTest, EqualInputGivesEqualBitsOnEveryThread) {
     }
 }
 
+// A wall that the eye looks along hides nothing and breaks no span.
+TEST_P(ViewTest, EdgeOnWallsBreakNothing) {
+    auto walls = rectangle({-10, -10}, {10, 10});
+    walls.push_back(wall({2, 0}, {4, 0}));
+    walls.push_back(wall({0, 2}, {0, 4}));
+    walls.push_back(wall({-2, 0}, {-4, 0}));
+    walls.push_back(wall({0, -2}, {0, -4}));
+    const View v = view(walls, {0, 0});
+    EXPECT_NEAR(view_angle_rad(v), whole, tolerance());
+    for (std::int32_t w = 0; w < 4; ++w) expect_stretch(v, w, 0, 20);
+}
+
+// Few rays: 22.5 degrees apart, so that whole changes of wall lie between two of them.
+double seen_by_16_rays(const std::vector<Wall>& walls) {
+    Box box = bounds_of(walls);
+    box.add({0, 0});
+    const EmbreeScene scene(walls, box, 100, 16);
+    return view_angle_rad(look(scene, walls, unlimited, {0, 0}));
+}
+
+TEST(EmbreeScene, ChangesOfWallBetweenTwoRaysAreFoundExactly) {
+    // The near wall ends after the far one begins.
+    EXPECT_NEAR(seen_by_16_rays({wall({5, -3}, {5, 1}), wall({10, 1}, {10, 6})}),
+                2 * std::atan(0.6), 1e-7);
+    EXPECT_NEAR(seen_by_16_rays({wall({10, -6}, {10, 2}), wall({5, 0.5}, {5, 3})}),
+                2 * std::atan(0.6), 1e-7);
+    // The far one is cut where the near one begins or ends: its part is the smaller for it.
+    const std::vector<Wall> limited = {wall({5, -3}, {5, 1}), wall({10, 1}, {10, 6})};
+    Box box = bounds_of(limited);
+    box.add({0, 0});
+    const EmbreeScene scene(limited, box, 100, 16);
+    const View v = look(scene, limited, {0, 9, 90}, {0, 0});  // the near one alone
+    EXPECT_NEAR(view_angle_rad(v), std::atan(0.6) + std::atan(0.2), 1e-7);
+    // A gap between them, open or with a wall behind it.
+    const double gap = std::atan(0.2) - std::atan(0.1);
+    EXPECT_NEAR(seen_by_16_rays({wall({5, -3}, {5, 0.5}), wall({5, 1}, {5, 3})}),
+                2 * std::atan(0.6) - gap, 1e-7);
+    EXPECT_NEAR(
+        seen_by_16_rays({wall({5, -3}, {5, 0.5}), wall({5, 1}, {5, 3}), wall({20, -1}, {20, 7})}),
+        2 * std::atan(0.6), 1e-7);
+}
+
 TEST(ExactScene, RefusesWallsThatCross) {
     const std::vector<Wall> walls = {wall({0, 0}, {2, 2}), wall({0, 2}, {2, 0})};
     EXPECT_THROW(ExactScene(walls, bounds_of(walls), 10), InputError);
