@@ -68,6 +68,21 @@ TEST(H5, EqualContentsGiveEqualBytes) {
     EXPECT_EQ(first, read_text(a.path()));
 }
 
+// Object headers of version 2 begin with OHDR, the version and flags; flag 32 says that times of
+// change are kept. Two writes within one second would not show them.
+TEST(H5, KeepsNoTimes) {
+    const test::TemporaryFile file("times.h5");
+    write_sample(file.path());
+    const std::string bytes = read_text(file.path());
+    int headers = 0;
+    for (std::size_t i = bytes.find("OHDR\2"); i != std::string::npos;
+         i = bytes.find("OHDR\2", i + 1)) {
+        ++headers;
+        EXPECT_EQ(static_cast<unsigned char>(bytes[i + 5]) & 32U, 0U) << "object " << headers;
+    }
+    EXPECT_GT(headers, 5);
+}
+
 TEST(H5, NothingAppearsWithoutClose) {
     const test::TemporaryFile file("open.h5");
     std::filesystem::path aside = file.path();

@@ -165,6 +165,46 @@ TEST(SiteIndoor, SlitBetweenDoubledWallsIsNobodysToScan) {
     }
 }
 
+TEST(SiteIndoor, SlitWithAnOpenEndIsNoPlaceToStand) {
+    for (const double gap : {0.04, 0.005}) {
+        FeatureSet set;
+        add_polygon(set, Role::outline, box_ring(0, 0, 10, 8));
+        add_line(set, Role::wall, {{5, 0}, {5, 5}});
+        add_line(set, Role::wall, {{5 + gap, 0}, {5 + gap, 5}});
+        const Site site = build(set);
+        EXPECT_FALSE(is_free(site, {5 + gap / 2, 2})) << gap;
+        EXPECT_EQ(free_sides(site, {5, 2}), 1) << gap;
+        EXPECT_EQ(free_sides(site, {5 + gap, 2}), 1) << gap;
+        EXPECT_TRUE(free_towards(site, *wall_through(site, {5, 2}), {4, 2})) << gap;
+        EXPECT_TRUE(is_free(site, {4, 2}) && is_free(site, {6, 2}) && is_free(site, {5, 6}));
+    }
+}
+
+TEST(SiteIndoor, ThickWallInsideAnOutlineIsTakenOut) {
+    FeatureSet set;
+    add_polygon(set, Role::outline, box_ring(0, 0, 10, 8));
+    add_polygon(set, Role::wall, box_ring(4, 0, 4.3, 5));
+    const Site site = build(set);
+    EXPECT_NEAR(site.area_m2, 80 - 1.5, 1e-6);
+    EXPECT_FALSE(is_free(site, {4.15, 2}));
+    EXPECT_EQ(free_sides(site, {4, 2}), 1);
+    EXPECT_EQ(free_sides(site, {4.15, 5}), 1);
+}
+
+TEST(SiteIndoor, OpenDoorJoinsRoomsDrawnApart) {
+    FeatureSet set;
+    for (const Ring& ring : {box_ring(0, 0, 5, 5), box_ring(5.2, 0, 10, 5)}) {
+        add_polygon(set, Role::room, ring);
+    }
+    add_polygon(set, Role::wall, box_ring(5, 0, 5.2, 2));
+    add_polygon(set, Role::wall, box_ring(5, 3, 5.2, 5));
+    add_line(set, Role::door, {{5.1, 2}, {5.1, 3}});
+    EXPECT_TRUE(is_free(build(set), {5.1, 2.5}));
+    SiteOptions closed = indoor();
+    closed.doors_open = false;
+    EXPECT_FALSE(is_free(build(set, closed), {5.1, 2.6}));
+}
+
 TEST(SiteIndoor, WallsAloneTellWhatIsInside) {
     FeatureSet set;
     add_line(set, Role::wall, {{5, 2}, {5, 0}, {0, 0}, {0, 5}, {10, 5}, {10, 0}, {5, 0}});

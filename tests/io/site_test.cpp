@@ -191,6 +191,15 @@ TEST(SiteOutdoor, InvalidPolygonIsNamedWithItsPlace) {
     EXPECT_NEAR(dropped.area_m2, 1, 1e-9);
 }
 
+TEST(SiteOutdoor, PolygonsWithoutAreaAreCountedAndLeftOut) {
+    FeatureSet set;
+    add_polygon(set, Role::building, box_ring(0, 0, 10, 10));
+    add_polygon(set, Role::building, {{20, 20}, {25, 20}});
+    const Site site = build_site(set, {}, "line").site;
+    EXPECT_EQ(site.counts.dropped_invalid, 1);
+    EXPECT_EQ(site.walls.size(), 4U);
+}
+
 TEST(SiteOutdoor, HoleOutsideItsRing) {
     FeatureSet set;
     add_polygon(set, Role::building, box_ring(0, 0, 10, 10), {box_ring(20, 20, 22, 22)});
@@ -209,7 +218,8 @@ TEST(SiteOutdoor, LargeCoordinatesGiveTheSameWalls) {
         for (Vec2d& p : ring) p += far;
     }
     const Site there = town(moved);
-    EXPECT_EQ(there.origin, here.origin + far);
+    EXPECT_EQ(here.origin, Vec2d(0, 0));  // whole metres below the south-west corner
+    EXPECT_EQ(there.origin, far);
     ASSERT_EQ(there.walls.size(), here.walls.size());
     for (std::size_t i = 0; i < here.walls.size(); ++i) {
         EXPECT_EQ(there.walls[i].a, here.walls[i].a);
@@ -276,6 +286,8 @@ TEST(SiteFile, NotANumberIsRefused) {
             "nan.geojson", geojson("[0,0],[10,0],[10," + std::string(bad) + "],[0,10],[0,0]"));
         const std::string message = message_of([&] { read_site(file.path(), {}); });
         EXPECT_NE(message.find("nan.geojson"), std::string::npos) << message;
+        EXPECT_NE(message.find("feature 1: a coordinate is no number"), std::string::npos)
+            << message;
     }
 }
 
