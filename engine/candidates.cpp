@@ -100,6 +100,13 @@ void CandidatePool::add(const std::vector<std::int64_t>& cells, CandidateKind ki
     }
 }
 
+void CandidatePool::add_seen(const Vec2d& point, std::int64_t cell, CandidateKind kind,
+                             CoverageRow row, float vf_rad) {
+    if (cell >= 0 && !index_.emplace(cell, candidates_.size()).second) return;
+    candidates_.push_back({point, cell, kind, vf_rad});
+    rows_.push_back(std::move(row));
+}
+
 void CandidatePool::add_points(const std::vector<Vec2d>& points, CandidateKind kind) {
     for (const Vec2d& p : points) {
         const View seen = viewer_.observed(p);
@@ -117,8 +124,8 @@ std::vector<std::uint8_t> CandidatePool::covered() const {
     return out;
 }
 
-std::vector<Stuck> split_paths(CandidatePool& pool, const std::vector<CellPath>& paths,
-                               const CandidateOptions& options, CandidateKind kind) {
+std::int64_t split_paths(CandidatePool& pool, const std::vector<CellPath>& paths,
+                         const CandidateOptions& options) {
     struct Part {
         std::size_t path;
         std::size_t from;
@@ -130,7 +137,7 @@ std::vector<Stuck> split_paths(CandidatePool& pool, const std::vector<CellPath>&
     for (std::size_t i = 0; i < paths.size(); ++i) {
         if (paths[i].size() > 1) open.push_back({i, 0, paths[i].size() - 1});
     }
-    std::vector<Stuck> stuck;
+    std::vector<std::uint8_t> falls_short(paths.size(), 0);
     for (int depth = 0; !open.empty(); ++depth) {
         std::vector<std::uint8_t> apart(open.size(), 0);
         pool.threads().for_each(
@@ -150,7 +157,7 @@ std::vector<Stuck> split_paths(CandidatePool& pool, const std::vector<CellPath>&
             if (apart[i] == 0) continue;
             const Part& p = open[i];
             if (p.to < p.from + 2 || depth == depth_most) {
-                stuck.push_back({p.path, paths[p.path][p.from], paths[p.path][p.to]});
+                falls_short[p.path] = 1;
                 continue;
             }
             const std::size_t middle = arc_middle(grid, paths[p.path], p.from, p.to);
@@ -158,47 +165,10 @@ std::vector<Stuck> split_paths(CandidatePool& pool, const std::vector<CellPath>&
             next.push_back({p.path, p.from, middle});
             next.push_back({p.path, middle, p.to});
         }
-        pool.add(middles, kind);
+        pool.add(middles, CandidateKind::split);
         open = std::move(next);
     }
-    return stuck;
-}
-
-void split_between_cells(CandidatePool& pool, const std::vector<Stuck>& stuck,
-                         const CandidateOptions& options) {
-    struct Half {
-        Vec2d from;
-        Vec2d to;
-        CoverageRow row_from;
-        CoverageRow row_to;
-    };
-    const Viewer& viewer = pool.viewer();
-    std::vector<Half> open;
-    for (const Stuck& s : stuck) {
-        open.push_back({pool.ground().grid.centre(s.from), pool.ground().grid.centre(s.to),
-                        pool.row_at(s.from), pool.row_at(s.to)});
-    }
-    while (!open.empty()) {
-        std::vector<Half> apart;
-        std::vector<Vec2d> middles;
-        for (Half& h : open) {
-            if ((h.to - h.from).norm() / 2 < least_step_m ||
-                overlap(options.ratio, viewer.pieces(), h.row_from, h.row_to) >=
-                    options.threshold) {
-                continue;
-            }
-            middles.emplace_back((h.from + h.to) / 2);
-            apart.push_back(std::move(h));
-        }
-        const std::vector<CoverageRow> rows = viewer.rows(pool.threads(), middles);
-        open.clear();
-        for (std::size_t i = 0; i < apart.size(); ++i) {
-            Half& h = apart[i];
-            open.push_back({h.from, middles[i], std::move(h.row_from), rows[i]});
-            open.push_back({middles[i], h.to, rows[i], std::move(h.row_to)});
-        }
-        pool.add_points(middles, CandidateKind::link);
-    }
+    return std::count(falls_short.begin(), falls_short.end(), 1);
 }
 
 CandidateResult find_candidates(const Viewer& viewer, const Threads& threads, const Ground& ground,
@@ -227,15 +197,12 @@ CandidateResult find_candidates(const Viewer& viewer, const Threads& threads, co
     for (const Ridge& ridge : graph.ridges) {
         for (CellPath& path : paths_of(pool, graph, ridge)) paths.push_back(std::move(path));
     }
-    const std::vector<Stuck> stuck = split_paths(pool, paths, options, CandidateKind::split);
-    std::vector<std::uint8_t> falls_short(paths.size(), 0);
-    for (const Stuck& s : stuck) falls_short[s.path] = 1;
-    report.ridges_short_of_overlap = std::count(falls_short.begin(), falls_short.end(), 1);
+    report.ridges_short_of_overlap = split_paths(pool, paths, options);
 
     pool.add_points(options.required, CandidateKind::required);
     pool.add_points(options.existing, CandidateKind::existing);
     progress("rescue");
-    const std::vector<PieceStatus> reach = rescue_pieces(pool, options, report);
+    const std::vector<PieceStatus> reach = rescue_pieces(pool, report);
     progress("links");
     link_parts(pool, options, report);
 

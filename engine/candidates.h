@@ -60,8 +60,12 @@ public:
 
     // Adds the cells that are not in it yet. Rows are computed in parallel.
     void add(const std::vector<std::int64_t>& cells, CandidateKind kind);
-    // Adds points that are no cell's centre.
+    // Adds points of the user.
     void add_points(const std::vector<Vec2d>& points, CandidateKind kind);
+    // Adds one that has been looked from already, unless its cell is there. cell -1: no cell's
+    // centre.
+    void add_seen(const Vec2d& at, std::int64_t cell, CandidateKind kind, CoverageRow row,
+                  float vf_rad);
     bool has(std::int64_t cell) const { return index_.contains(cell); }
     const CoverageRow& row_at(std::int64_t cell) const { return rows_[index_.at(cell)]; }
     const std::vector<Candidate>& candidates() const { return candidates_; }
@@ -84,31 +88,19 @@ private:
 // A line of cells whose two ends are candidates.
 using CellPath = std::vector<std::int64_t>;
 
-// Two neighbouring cells of a path that are still apart when splitting ends.
-struct Stuck {
-    std::size_t path = 0;
-    std::int64_t from = 0;
-    std::int64_t to = 0;
-};
-
 // Ridge splitting: while two neighbours along a path overlap less than the threshold, the arc's
-// middle is inserted, down to 2 cells or depth 16. Returns where it ended short of the threshold.
-std::vector<Stuck> split_paths(CandidatePool& pool, const std::vector<CellPath>& paths,
-                               const CandidateOptions& options, CandidateKind kind);
-
-// Goes on between two cells' centres, where splitting of cells had to end: halves the straight
-// way until neighbours overlap enough or stand closer than least_step_m.
-inline constexpr double least_step_m = 0.05;
-void split_between_cells(CandidatePool& pool, const std::vector<Stuck>& stuck,
+// middle is inserted, down to 2 cells or depth 16. Returns how many paths end short of it.
+std::int64_t split_paths(CandidatePool& pool, const std::vector<CellPath>& paths,
                          const CandidateOptions& options);
 
 // For each piece without a candidate: a free cell that sees enough of it becomes one. Returns
 // the reach of every piece afterwards.
-std::vector<PieceStatus> rescue_pieces(CandidatePool& pool, const CandidateOptions& options,
-                                       CandidateReport& report);
+std::vector<PieceStatus> rescue_pieces(CandidatePool& pool, CandidateReport& report);
 
-// Joins parts of the overlap graph along the shortest free paths between them, as far as walls
-// and views allow.
+// Joins parts of the overlap graph along the shortest ways between them over cells that see
+// anything: points are inserted as in ridge splitting, and between two cells' centres down to
+// least_step_m. Ways on which some neighbours stay apart all the same add nothing.
+inline constexpr double least_step_m = 0.05;
 void link_parts(CandidatePool& pool, const CandidateOptions& options, CandidateReport& report);
 
 }  // namespace vfplan

@@ -22,6 +22,71 @@ std::int64_t count_parts(const std::vector<std::int32_t>& part) {
     return part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end());
 }
 
+// A point of a way, looked from.
+struct Stand {
+    Vec2d at;
+    std::size_t step;  // on the way, or no_step between two steps
+    CoverageRow row;
+    float vf_rad = 0;
+};
+constexpr std::size_t no_step = static_cast<std::size_t>(-1);
+
+// Tries to bridge one way; the stands in between, or nothing when some neighbours stay apart.
+class Bridge {
+public:
+    Bridge(const CandidatePool& pool, const CandidateOptions& options, const CellPath& way)
+        : pool_(pool), options_(options), way_(way) {}
+
+    bool build(std::vector<Stand>& out) {
+        const Stand first{centre(0), 0, pool_.row_at(way_.front())};
+        const Stand last{centre(way_.size() - 1), way_.size() - 1, pool_.row_at(way_.back())};
+        const bool good = between(first, last);
+        if (good) out = std::move(stands_);
+        return good;
+    }
+
+private:
+    Vec2d centre(std::size_t step) const { return pool_.ground().grid.centre(way_[step]); }
+
+    // Depth first and from the near end, so that a way that cannot be bridged is soon given up.
+    bool between(const Stand& a, const Stand& b) {
+        if (overlap(options_.ratio, pool_.viewer().pieces(), a.row, b.row) >= options_.threshold) {
+            return true;
+        }
+        Stand middle;
+        if (a.step != no_step && b.step != no_step && b.step >= a.step + 2) {
+            middle.step = arc_middle(pool_.ground().grid, way_, a.step, b.step);
+            middle.at = centre(middle.step);
+        } else {
+            if ((b.at - a.at).norm() / 2 < least_step_m) return false;
+            middle.step = no_step;
+            middle.at = (a.at + b.at) / 2;
+        }
+        const View seen = pool_.viewer().observed(middle.at);
+        middle.vf_rad = static_cast<float>(view_angle_rad(seen));
+        middle.row = coverage_row(pool_.viewer().walls(), pool_.viewer().pieces(), middle.at, seen,
+                                  pool_.viewer().visible_fraction());
+        if (middle.row.empty()) return false;
+        if (!between(a, middle) || !between(middle, b)) return false;
+        stands_.push_back(std::move(middle));
+        return true;
+    }
+
+    const CandidatePool& pool_;
+    const CandidateOptions& options_;
+    const CellPath& way_;
+    std::vector<Stand> stands_;
+};
+
+// Cells that a way may lead over: those that see anything.
+Raster<std::uint8_t> seeing_cells(const Ground& ground) {
+    Raster<std::uint8_t> out = ground.standable;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        if (!(ground.field[i] > 0)) out[i] = 0;
+    }
+    return out;
+}
+
 // Where floods from two parts meet with the shortest way between them.
 struct Meeting {
     std::int32_t length = Flood::unreached;
@@ -37,8 +102,9 @@ void link_parts(CandidatePool& pool, const CandidateOptions& options, CandidateR
     std::vector<std::int32_t> part = parts_of(pool, options);
     report.parts_before_links = count_parts(part);
     std::map<std::pair<std::int64_t, std::int64_t>, bool> tried;
+    const Raster<std::uint8_t> seeing = seeing_cells(ground);
     for (int round = 0; round < rounds_most && count_parts(part) > 1; ++round) {
-        Flood flood(ground.grid, ground.standable, ground.closed);
+        Flood flood(ground.grid, seeing, ground.closed);
         for (std::size_t i = 0; i < pool.candidates().size(); ++i) {
             const std::int64_t cell = pool.candidates()[i].cell;
             if (cell >= 0) flood.add_source(cell, part[i]);
@@ -72,9 +138,22 @@ void link_parts(CandidatePool& pool, const CandidateOptions& options, CandidateR
                 paths.push_back(std::move(path));
             }
         }
-        if (paths.empty()) break;
-        const std::vector<Stuck> stuck = split_paths(pool, paths, options, CandidateKind::link);
-        split_between_cells(pool, stuck, options);
+        std::vector<std::vector<Stand>> bridges(paths.size());
+        std::vector<std::uint8_t> good(paths.size(), 0);
+        pool.threads().for_each(static_cast<std::int64_t>(paths.size()), 1,
+                                [&](std::int64_t from, std::int64_t to) {
+                                    for (std::int64_t i = from; i < to; ++i) {
+                                        Bridge bridge(pool, options, paths[at(i)]);
+                                        good[at(i)] = bridge.build(bridges[at(i)]) ? 1 : 0;
+                                    }
+                                });
+        if (std::find(good.begin(), good.end(), 1) == good.end()) break;
+        for (std::size_t i = 0; i < paths.size(); ++i) {
+            for (Stand& s : bridges[i]) {
+                pool.add_seen(s.at, s.step == no_step ? -1 : paths[i][s.step], CandidateKind::link,
+                              std::move(s.row), s.vf_rad);
+            }
+        }
         part = parts_of(pool, options);
     }
     report.parts = count_parts(part);

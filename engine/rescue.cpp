@@ -3,7 +3,6 @@
 #include <numeric>
 
 #include "engine/candidates.h"
-#include "engine/flood.h"
 #include "kernels/angle.h"
 
 namespace vfplan {
@@ -158,8 +157,7 @@ std::int64_t best_cell(const CandidatePool& pool, std::int64_t piece) {
 
 }  // namespace
 
-std::vector<PieceStatus> rescue_pieces(CandidatePool& pool, const CandidateOptions& options,
-                                       CandidateReport& report) {
+std::vector<PieceStatus> rescue_pieces(CandidatePool& pool, CandidateReport& report) {
     std::vector<std::uint8_t> covered = pool.covered();
     std::vector<std::int64_t> open;
     for (std::size_t p = 0; p < covered.size(); ++p) {
@@ -175,12 +173,6 @@ std::vector<PieceStatus> rescue_pieces(CandidatePool& pool, const CandidateOptio
     // One cell often serves many pieces: take cells in the order of pieces, skip what is covered
     // by then.
     std::vector<PieceStatus> reach(covered.size(), PieceStatus::covered);
-    Flood ways_out(pool.ground().grid, pool.ground().standable, pool.ground().closed);
-    for (const Candidate& c : pool.candidates()) {
-        if (c.cell >= 0) ways_out.add_source(c.cell, 0);
-    }
-    ways_out.run();
-    std::vector<CellPath> ways;
     for (std::size_t i = 0; i < open.size(); ++i) {
         if (cell_of[i] < 0) {
             reach[at(open[i])] = PieceStatus::no_viewpoint;
@@ -188,12 +180,9 @@ std::vector<PieceStatus> rescue_pieces(CandidatePool& pool, const CandidateOptio
         }
         ++report.rescued_pieces;
         if (covered[at(open[i])] != 0) continue;
-        CellPath way = ways_out.path_to(cell_of[i]);
         pool.add({cell_of[i]}, CandidateKind::rescue);
         for (const Seen& s : pool.row_at(cell_of[i])) covered[at(s.piece)] = 1;
-        if (way.size() > 1) ways.push_back(std::move(way));
     }
-    split_paths(pool, ways, options, CandidateKind::link);
     return reach;
 }
 
