@@ -16,7 +16,8 @@ std::vector<std::pair<Parameter, ParameterValue>> parameters(Config& c) {
         {{"site", "input", "site file: GeoJSON, GeoPackage, Shapefile, OSM, DXF, ...; relative to "
                            "the job file", tables},
          &c.site.input},
-        {{"site", "layer", "layer of a file with several; empty: the only one", tables},
+        {{"site", "layer", "layer of a file with several; DXF: parts of layer names, with commas; empty: all or "
+                           "the only one", tables},
          &c.site.layer},
         {{"site", "kind", "outdoor: polygons are solid; indoor: free space is inside", tables,
           {"outdoor", "indoor"}},

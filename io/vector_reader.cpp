@@ -12,6 +12,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <sstream>
 
 #include "kernels/error.h"
 
@@ -90,7 +91,7 @@ std::vector<OGRLayerH> choose_layers(GDALDatasetH set, const std::string& driver
         all.push_back(layer);
         names += (i > 0 ? ", " : "") + std::string(OGR_L_GetName(layer));
     }
-    if (!options.layer.empty()) {
+    if (!options.layer.empty() && driver != "DXF") {
         OGRLayerH layer = GDALDatasetGetLayerByName(set, options.layer.c_str());
         if (layer == nullptr) {
             throw InputError(fmt::format("{}: no layer '{}'; the file has: {}", file.string(),
@@ -125,6 +126,20 @@ std::optional<Role> role_of(OGRFeatureH feature, bool& skip) {
         return Role::building;
     }
     return std::nullopt;
+}
+
+// DXF drawings are one layer to GDAL; their own layers are a field. True when its name contains
+// one of the words in `wanted`, which are parted by commas.
+bool on_dxf_layer(OGRFeatureH feature, const std::string& wanted) {
+    const int field = OGR_F_GetFieldIndex(feature, "Layer");
+    const std::string layer = field < 0 ? "" : OGR_F_GetFieldAsString(feature, field);
+    std::istringstream words(wanted);
+    for (std::string word; std::getline(words, word, ',');) {
+        word.erase(0, word.find_first_not_of(' '));
+        word.erase(word.find_last_not_of(' ') + 1);
+        if (!word.empty() && layer.find(word) != std::string::npos) return true;
+    }
+    return false;
 }
 
 // Appends a ring or line; `closed` drops the repeated last point.
@@ -338,6 +353,9 @@ FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& o
             }
             bool skip = feature.polygons.empty() && feature.lines.empty();
             const std::optional<Role> role = role_of(f.get(), skip);
+            if (driver == "DXF" && !options.layer.empty()) {
+                skip = skip || !on_dxf_layer(f.get(), options.layer);
+            }
             if (skip) {
                 ++out.ignored;
                 continue;
