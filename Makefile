@@ -11,7 +11,7 @@ VFPLAN := build/$(PRESET)/vfplan
 
 SOURCES = $(shell find kernels io engine tests bench -name '*.cpp' -o -name '*.h' | LC_ALL=C sort)
 
-.PHONY: help setup build configure run test bench check-format format tidy clean
+.PHONY: help setup build configure program run test bench check-format format tidy clean
 
 help:  ## this list
 	@sed -nE 's/^([a-z-]+):.*  ## (.*)/\1|\2/p' Makefile | \
@@ -27,11 +27,14 @@ configure: setup
 build: configure  ## compile build/$PRESET/vfplan and its tests
 	@cmake --build --preset $(PRESET) -j $(JOBS)
 
-run: build runs/town.geojson  ## plan a generated town of 637 buildings; ends with where map.png is
+program: configure
+	@cmake --build --preset $(PRESET) -j $(JOBS) --target vfplan
+
+run: program runs/town.geojson  ## plan a generated town of 637 buildings; ends with where map.png is
 	@$(VFPLAN) run configs/town.toml --out runs/town
 	@echo "The picture: runs/town/map.png"
 
-runs/town.geojson: | build
+runs/town.geojson: | program
 	@mkdir -p runs
 	@$(VFPLAN) generate town --seed 1 --out $@
 
