@@ -27,6 +27,8 @@ struct Case {
     const char* kernel;
 };
 
+void PrintTo(const Case& c, std::ostream* out) { *out << c.site << ", kernel " << c.kernel; }
+
 class Determinism : public ::testing::TestWithParam<Case> {
 protected:
     void SetUp() override { site = generated(scratch, GetParam().site); }

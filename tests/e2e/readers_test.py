@@ -1,0 +1,230 @@
+"""Opens the tables of a run with h5py and scipy, without any code of this program.
+
+usage: readers_test.py VFPLAN CONFIGS
+"""
+
+import csv
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+import scipy.sparse
+
+VFPLAN, CONFIGS = Path(sys.argv[1]), Path(sys.argv[2])
+
+
+def text(value):
+    return value.decode() if isinstance(value, bytes) else value
+
+
+class Run:
+    """One finished run, opened."""
+
+    def __init__(self, folder, kind, sets):
+        site = folder / f"{kind}.geojson"
+        self.dir = folder / kind
+        sets = [f"site.input={site}", *sets]
+        subprocess.run([VFPLAN, "generate", kind, "--out", site], check=True, capture_output=True)
+        subprocess.run(
+            [VFPLAN, "run", CONFIGS / f"{kind}.toml", "--out", self.dir, "--quiet"]
+            + [word for s in sets for word in ("--set", s)],
+            check=True,
+        )
+        self.summary = json.loads((self.dir / "summary.json").read_text())
+        self.field = h5py.File(self.dir / "field.h5", "r")
+        self.coverage = h5py.File(self.dir / "coverage.h5", "r")
+        self.plan = h5py.File(self.dir / "plan.h5", "r")
+        group = self.coverage["coverage"]
+        self.table = scipy.sparse.csr_matrix(
+            (group["data"][:], group["indices"][:], group["indptr"][:]), shape=group.attrs["shape"]
+        )
+        pieces = self.coverage["pieces"]
+        self.length = pieces["s1_m"][:] - pieces["s0_m"][:]
+        self.origin = [self.field["crs"].attrs[f"origin_{a}_m"] for a in "xy"]
+
+    def rows(self, name):
+        with open(self.dir / name, newline="") as file:
+            return list(csv.DictReader(file))
+
+
+def on_every_run(test):
+    def each(self):
+        for name, run in self.runs.items():
+            with self.subTest(name):
+                test(self, run)
+
+    return each
+
+
+class Readers(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        folder = Path(cls.folder.name)
+        formats = "output.formats=['csv']"
+        crop = "site.crop_m=[0,0,400,292]"
+        cls.runs = {
+            "town": Run(folder, "town", [crop, "field.cell_m=4", formats]),
+            "flat": Run(folder, "flat", ["field.cell_m=0.1", formats]),
+        }
+
+    @classmethod
+    def tearDownClass(cls):
+        for run in cls.runs.values():
+            for file in (run.field, run.coverage, run.plan):
+                file.close()
+        cls.folder.cleanup()
+
+    @on_every_run
+    def test_headers(self, run):
+        keys = set()
+        for file in (run.field, run.coverage, run.plan):
+            self.assertEqual(file.attrs["complete"], 1)
+            self.assertEqual(file.attrs["format_version"], 1)
+            self.assertTrue(text(file.attrs["title"]))
+            keys.add(text(file.attrs["key"]))
+        self.assertEqual(len(keys), 1)
+        self.assertEqual(text(run.field.attrs["Conventions"]), "CF-1.8")
+
+    @on_every_run
+    def test_field_grid(self, run):
+        vf, x, y = run.field["vf"], run.field["x"], run.field["y"]
+        self.assertEqual(vf.shape, (len(y), len(x)))
+        self.assertEqual(vf.size, run.summary["grid"]["cells"])
+        self.assertEqual(vf.dtype, np.float32)
+        self.assertEqual([d[0].name for d in vf.dims], ["/y", "/x"])
+        self.assertTrue(h5py.h5ds.is_scale(x.id) and h5py.h5ds.is_scale(y.id))
+        self.assertEqual(text(vf.attrs["units"]), "radian")
+        self.assertEqual(text(x.attrs["units"]), "m")
+        self.assertEqual(text(y.attrs["units"]), "m")
+        self.assertEqual(text(vf.attrs["grid_mapping"]), "crs")
+        self.assertTrue(np.isnan(vf.attrs["_FillValue"]))
+        cell = vf.attrs["cell_m"]
+        self.assertEqual(cell, run.summary["grid"]["cell_m"])
+        for axis, values in (("x", x[:]), ("y", y[:])):
+            self.assertTrue(np.allclose(np.diff(values), cell, atol=1e-9))
+            first = run.field["vf"].attrs[f"grid_origin_{axis}_m"] + cell / 2
+            self.assertAlmostEqual(values[0], first + run.origin["xy".index(axis)], places=9)
+
+    @on_every_run
+    def test_field_values(self, run):
+        vf = run.field["vf"][:]
+        free = ~np.isnan(vf)
+        self.assertEqual(free.sum(), run.summary["grid"]["free_cells"])
+        self.assertGreaterEqual(vf[free].min(), 0)
+        self.assertLessEqual(vf[free].max(), np.float32(2 * np.pi))
+        self.assertGreater(vf[free].max(), 3)
+
+    @on_every_run
+    def test_candidates_lie_on_the_field(self, run):
+        c = run.coverage["candidates"]
+        vf, cell = run.field["vf"][:], c["cell"][:]
+        on = cell >= 0
+        # Off the cells' centres there are links only.
+        kinds = dict(pair.split(" ") for pair in text(c["kind"].attrs["meaning"]).split(", "))
+        self.assertEqual({kinds[str(k)] for k in c["kind"][:][~on]} - {"link"}, set())
+        row, column = np.divmod(cell[on], vf.shape[1])
+        np.testing.assert_array_equal(vf[row, column], c["vf"][:][on])
+        # Their places are the cells' centres: in the site frame, the field in the input's.
+        for axis, at, origin in (("x", column, run.origin[0]), ("y", row, run.origin[1])):
+            centres = run.field[axis][:][at]
+            np.testing.assert_allclose(c[axis][:][on] + origin, centres, atol=1e-9)
+        self.assertEqual(len(np.unique(cell[on])), on.sum())
+        self.assertEqual(len(cell), run.summary["candidates"])
+
+    @on_every_run
+    def test_frames_are_named(self, run):
+        for group in ("walls", "candidates"):
+            self.assertIn("site frame", text(run.coverage[group].attrs["units"]))
+
+    @on_every_run
+    def test_coverage_is_csr(self, run):
+        group, table = run.coverage["coverage"], run.table
+        self.assertEqual(text(group.attrs["encoding-type"]), "csr_matrix")
+        self.assertEqual(text(group.attrs["encoding-version"]), "0.1.0")
+        self.assertEqual(group["indptr"].dtype, np.int64)
+        self.assertEqual(group["indices"].dtype, np.int32)
+        table.check_format(full_check=True)
+        self.assertEqual(table.shape, (run.summary["candidates"], run.summary["pieces"]))
+        for a, b in zip(table.indptr, table.indptr[1:]):
+            self.assertTrue((np.diff(table.indices[a:b]) > 0).all(), "sorted, none twice")
+        self.assertEqual(len(group["angle_rad"]), table.nnz)
+        self.assertGreaterEqual(table.data.min(), 0.5)  # visible_fraction
+        self.assertLessEqual(table.data.max(), 1 + 1e-6)
+        self.assertGreater(group["angle_rad"][:].min(), 0)
+
+    @on_every_run
+    def test_reach_and_lengths(self, run):
+        s = run.summary
+        seen = np.asarray((run.table > 0).sum(axis=0)).ravel() > 0
+        reach = run.coverage["pieces/reach"][:]
+        np.testing.assert_array_equal(seen, reach == 0)
+        self.assertAlmostEqual(run.length.sum(), s["length_m"], places=6)
+        coverable = reach != 1
+        self.assertEqual(coverable.sum(), s["pieces_coverable"])
+        self.assertAlmostEqual(run.length[coverable].sum(), s["length_coverable_m"], places=6)
+        self.assertEqual(len(run.coverage["walls/x0"]), s["site"]["walls"])
+
+    @on_every_run
+    def test_plan_is_what_the_table_says(self, run):
+        s, plan = run.summary, run.plan
+        station = plan["stations/candidate"][:]
+        component = plan["stations/component"][:]
+        self.assertEqual(len(station), s["stations"])
+        self.assertEqual(len(np.unique(station)), len(station))
+        bits = (run.table[station] > 0).toarray()
+        status = plan["piece_status"][:]
+        main = bits[component == 0].any(axis=0)
+        np.testing.assert_array_equal(main, status == 0)
+        self.assertEqual(main.sum(), s["pieces_covered"])
+        self.assertAlmostEqual(run.length[main].sum(), s["length_covered_m"], places=6)
+        np.testing.assert_allclose(plan["stations/seen_length_m"][:], bits @ run.length, atol=1e-6)
+        self.assertAlmostEqual(
+            plan["stations/new_length_m"][:][component == 0].sum(), s["length_covered_m"], places=6
+        )
+        for i, row in enumerate(run.rows("stations.csv")):
+            for axis, origin in zip("xy", run.origin):
+                at = run.coverage[f"candidates/{axis}"][station[i]] + origin
+                self.assertAlmostEqual(at, float(row[axis]), delta=6e-5)
+
+    @on_every_run
+    def test_links_are_overlaps(self, run):
+        plan = run.plan
+        bits = (run.table[plan["stations/candidate"][:]] > 0).toarray()
+        own = bits @ run.length
+        a, b = plan["links/from"][:], plan["links/to"][:]
+        self.assertEqual(len(a), run.summary["links"])
+        joint = (bits[a] & bits[b]) @ run.length
+        expected = {
+            "min_len": joint / np.minimum(own[a], own[b]),
+            "mean_len": 2 * joint / (own[a] + own[b]),
+            "union_len": joint / (own[a] + own[b] - joint),
+        }
+        for ratio, value in expected.items():
+            np.testing.assert_allclose(plan[f"links/{ratio}"][:], value, atol=1e-9, err_msg=ratio)
+        ratio = text(plan.attrs["overlap_ratio"])
+        np.testing.assert_array_equal(plan["links/overlap"][:], plan[f"links/{ratio}"][:])
+        self.assertGreaterEqual(plan["links/overlap"][:].min(), plan.attrs["overlap_threshold"])
+        # Every pair of a network that overlaps enough is a link.
+        component = plan["stations/component"][:]
+        self.assertTrue((component[a] == component[b]).all())
+        pairs = bits @ (bits * run.length).T
+        enough = 2 * pairs / (own[:, None] + own[None, :]) >= plan.attrs["overlap_threshold"]
+        self.assertEqual(np.triu(enough, 1).sum(), len(a))
+
+    @on_every_run
+    def test_certificate(self, run):
+        pieces = run.plan["certificate/pieces"][:]
+        self.assertEqual(len(pieces), run.summary["lower_bound"])
+        seen = (run.table[:, pieces] > 0).toarray()
+        self.assertLessEqual(seen.sum(axis=1).max(), 1)
+        self.assertGreaterEqual(seen.sum(axis=0).min(), 1)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
