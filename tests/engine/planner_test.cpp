@@ -94,8 +94,7 @@ TEST(Planner, LinksJoinStationsInOrderWithAllRatios) {
 
 TEST(Planner, RequiredAndExistingStay) {
     // 0 sees everything; 2 (behind 1) sees nothing new but is required.
-    HandMade h =
-        hand_made({9, 1}, {{0, 1}, {}, {1}, {0}}, {{0, 1, 0.5}, {1, 2, 0.5}, {0, 3, 0.9}});
+    HandMade h = hand_made({9, 1}, {{0, 1}, {}, {1}, {0}}, {{0, 1, 0.5}, {1, 2, 0.5}, {0, 3, 0.9}});
     EXPECT_EQ(plan_of(h, refined).stations.size(), 1U);
     for (const CandidateKind kind : {CandidateKind::required, CandidateKind::existing}) {
         h.candidates[2].kind = kind;

@@ -1,11 +1,12 @@
 // Sites made by hand, for the readers' tests.
 #pragma once
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -76,7 +77,7 @@ class TemporaryFile {
 public:
     explicit TemporaryFile(const std::string& name)
         : path_(std::filesystem::temp_directory_path() /
-                (std::to_string(std::hash<std::string>{}(std::string(VFPLAN_BINARY))) + name)) {
+                (std::to_string(::getpid()) + "_" + name)) {  // tests run side by side
         std::filesystem::remove(path_);
     }
     TemporaryFile(const std::string& name, const std::string& text) : TemporaryFile(name) {
