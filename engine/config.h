@@ -58,6 +58,7 @@ struct Config {
     } plan;
     struct {
         std::vector<std::string> formats = {"geojson", "csv", "png"};
+        std::int64_t map_px = 1600;
     } output;
 };
 

@@ -105,6 +105,8 @@ std::vector<std::pair<Parameter, ParameterValue>> parameters(Config& c) {
         {{"output", "formats", "files beside the tables: geojson, csv, png", output,
           {"geojson", "csv", "png"}},
          &c.output.formats},
+        {{"output", "map_px", "longest side of the map in map.png, in pixels", output, {}, 200, 20000},
+         &c.output.map_px},
     };
 }
 

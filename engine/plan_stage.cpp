@@ -104,7 +104,7 @@ Planned plan_tables(const Config& config, CoverageTables& t, bool confirm, const
     Planned out;
     std::unique_ptr<ViewKernel> exact;
     for (int round = 0;; ++round) {
-        progress.stage(round == 0 ? "overlap" : "overlap again");
+        progress.stage("overlap");
         const Graph graph =
             overlap_graph(threads, t.pieces, t.table, options.ratio, options.threshold);
         const PlanInput input{t.candidates, t.pieces, t.reach, t.table, graph};
@@ -237,7 +237,8 @@ void write_plan_files(const RunDir& dir, const Config& config, const FieldTable&
         write_text(dir.file("stations.geojson"), stations_geojson(t, p.plan));
     }
     if (wants(config, "png")) {
-        write_text(dir.file("map.png"), map_png(map_of(config, field, t, p)));
+        write_text(dir.file("map.png"), map_png(map_of(config, field, t, p),
+                                                static_cast<int>(config.output.map_px)));
     }
 }
 

@@ -79,7 +79,7 @@ void Progress::finish() {
     if (name_.empty()) return;
     const Moment now = Moment::now();
     times_.push_back({name_, now.wall_s - stage_begin_.wall_s, now.cpu_s - stage_begin_.cpu_s});
-    if (!quiet_) {
+    if (!quiet_ && times_.back().wall_s >= 0.1) {
         note(fmt::format("{:<12} {}", name_, span_text(times_.back().wall_s)));
     }
     name_.clear();
