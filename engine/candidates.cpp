@@ -70,8 +70,8 @@ CandidateResult sorted_result(const CandidatePool& pool) {
     const auto& c = pool.candidates();
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         const auto key = [&](const Candidate& k) {
-            const bool of_user = k.kind == CandidateKind::required ||
-                                 k.kind == CandidateKind::existing;
+            const bool of_user =
+                k.kind == CandidateKind::required || k.kind == CandidateKind::existing;
             return std::tuple(of_user, of_user ? 0.0 : k.at.y(), of_user ? 0.0 : k.at.x());
         };
         return key(c[a]) < key(c[b]);
@@ -111,8 +111,8 @@ void CandidatePool::add_points(const std::vector<Vec2d>& points, CandidateKind k
     for (const Vec2d& p : points) {
         const View seen = viewer_.observed(p);
         candidates_.push_back({p, -1, kind, static_cast<float>(view_angle_rad(seen))});
-        rows_.push_back(coverage_row(viewer_.walls(), viewer_.pieces(), p, seen,
-                                     viewer_.visible_fraction()));
+        rows_.push_back(
+            coverage_row(viewer_.walls(), viewer_.pieces(), p, seen, viewer_.visible_fraction()));
     }
 }
 
@@ -144,10 +144,9 @@ std::int64_t split_paths(CandidatePool& pool, const std::vector<CellPath>& paths
             static_cast<std::int64_t>(open.size()), 16, [&](std::int64_t from, std::int64_t to) {
                 for (std::int64_t i = from; i < to; ++i) {
                     const Part& p = open[at(i)];
-                    const double o =
-                        overlap(options.ratio, pool.viewer().pieces(),
-                                pool.row_at(paths[p.path][p.from]),
-                                pool.row_at(paths[p.path][p.to]));
+                    const double o = overlap(options.ratio, pool.viewer().pieces(),
+                                             pool.row_at(paths[p.path][p.from]),
+                                             pool.row_at(paths[p.path][p.to]));
                     apart[at(i)] = o < options.threshold ? 1 : 0;
                 }
             });

@@ -23,10 +23,10 @@ struct CandidateOptions {
 // Where candidates may lie. References to what outlives the builder.
 struct Ground {
     const Grid& grid;
-    const Raster<float>& field;              // NaN where no station can stand
-    const Raster<std::uint8_t>& standable;   // cells where a station may stand
-    const Raster<std::uint8_t>& closed;      // links between them that walls part
-    const Raster<std::uint8_t>& domain;      // no closed link, and VF above the threshold
+    const Raster<float>& field;             // NaN where no station can stand
+    const Raster<std::uint8_t>& standable;  // cells where a station may stand
+    const Raster<std::uint8_t>& closed;     // links between them that walls part
+    const Raster<std::uint8_t>& domain;     // no closed link, and VF above the threshold
 };
 
 struct CandidateReport {
@@ -34,14 +34,14 @@ struct CandidateReport {
     std::int64_t ridges = 0;
     std::int64_t ridges_short_of_overlap = 0;  // split as far as it goes and still below
     std::int64_t rescued_pieces = 0;
-    std::int64_t parts_before_links = 0;       // components of the overlap graph
+    std::int64_t parts_before_links = 0;  // components of the overlap graph
     std::int64_t parts = 0;
 };
 
 struct CandidateResult {
     std::vector<Candidate> candidates;  // by y, then x; the user's points last, as given
     CoverageTable table;
-    std::vector<PieceStatus> reach;     // covered = by some candidate; else why not
+    std::vector<PieceStatus> reach;  // covered = by some candidate; else why not
     CandidateReport report;
 };
 

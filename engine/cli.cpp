@@ -60,7 +60,8 @@ void add_job(CLI::App& app, Shared& s) {
     app.add_option("--out", s.out, "Run directory; default: the job file's name without .toml");
     add_sets(app, s, "Replaces a parameter of the job file; may be repeated");
     app.add_flag("--fresh", s.fresh, "Make everything again; default: go on where a run stopped");
-    app.add_flag("--dry-run", s.dry_run, "Check the job and the site, print cells, memory and disk");
+    app.add_flag("--dry-run", s.dry_run,
+                 "Check the job and the site, print cells, memory and disk");
     add_common(app, s);
 }
 
@@ -68,7 +69,8 @@ int run_or_precompute(const Shared& s, bool plan) {
     Progress progress(s.quiet);
     const Config config = read_config(s.job, s.sets);
     JobOptions options;
-    options.out = s.out.empty() ? std::filesystem::path(s.job).stem() : std::filesystem::path(s.out);
+    options.out =
+        s.out.empty() ? std::filesystem::path(s.job).stem() : std::filesystem::path(s.out);
     if (s.out.empty() && options.out.extension().empty() &&
         std::filesystem::path(s.job) == options.out) {
         options.out += ".run";
@@ -109,12 +111,13 @@ int verify(const Shared& s) {
 
 int dispatch(int argc, char** argv) {
     if (const char* isa = std::getenv("VFPLAN_EMBREE_ISA")) limit_embree_isa(isa);
-    CLI::App app{"Plans connected networks of static-LiDAR stations from city maps and floor "
-                 "plans.",
-                 "vfplan"};
+    CLI::App app{
+        "Plans connected networks of static-LiDAR stations from city maps and floor "
+        "plans.",
+        "vfplan"};
     app.require_subcommand(1);
-    app.set_version_flag("--version", fmt::format("vfplan {} ({}, {})", version, version_git,
-                                                  build_type));
+    app.set_version_flag("--version",
+                         fmt::format("vfplan {} ({}, {})", version, version_git, build_type));
     app.footer(exit_codes);
     Shared s;
     GenerateOptions site;
@@ -143,7 +146,8 @@ int dispatch(int argc, char** argv) {
     make->add_option("--out", site_out, "GeoJSON file; default: standard output");
     CLI::App* list = app.add_subcommand("parameters", "Prints all parameters as Markdown");
 
-    if (argc > 1 && argv[1][0] != '-' && app.get_subcommands([&](CLI::App* a) { return a->get_name() == argv[1]; }).empty()) {
+    if (argc > 1 && argv[1][0] != '-' &&
+        app.get_subcommands([&](CLI::App* a) { return a->get_name() == argv[1]; }).empty()) {
         throw UsageError(fmt::format("{}: no such command; see vfplan --help", argv[1]));
     }
     try {
@@ -176,8 +180,9 @@ int run_cli(int argc, char** argv) {
         fmt::print(stderr, "vfplan: {}\n", e.what());
         return static_cast<int>(e.code());
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "vfplan: out of memory; choose larger cells or a crop, --dry-run tells "
-                           "what a job needs\n");
+        fmt::print(stderr,
+                   "vfplan: out of memory; choose larger cells or a crop, --dry-run tells "
+                   "what a job needs\n");
         return static_cast<int>(Exit::io);
     } catch (const std::exception& e) {
         fmt::print(stderr, "vfplan: {}; this is a bug, please report it with the job file\n",

@@ -40,8 +40,7 @@ std::string shown(const toml::node& node) {
 
 [[noreturn]] void bad_value(const Parameter& p, const toml::node& value, const Place& place,
                             const std::string& why) {
-    throw UsageError(
-        fmt::format("{} = {} ({}): {}", p.key(), shown(value), place.text(), why));
+    throw UsageError(fmt::format("{} = {} ({}): {}", p.key(), shown(value), place.text(), why));
 }
 
 void check_number(const Parameter& p, double v, const toml::node& value, const Place& place) {
@@ -65,8 +64,7 @@ double number_in(const Parameter& p, const toml::node& node, const Place& place)
 
 void check_choice(const Parameter& p, const std::string& v, const toml::node& value,
                   const Place& place) {
-    if (p.choices.empty() ||
-        std::find(p.choices.begin(), p.choices.end(), v) != p.choices.end()) {
+    if (p.choices.empty() || std::find(p.choices.begin(), p.choices.end(), v) != p.choices.end()) {
         return;
     }
     bad_value(p, value, place, fmt::format("must be one of: {}", fmt::join(p.choices, ", ")));
@@ -141,8 +139,8 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
         row[0] = i;
         for (std::size_t k = 1; k <= b.size(); ++k) {
             const std::size_t up = row[k];
-            row[k] = std::min({row[k] + 1, row[k - 1] + 1,
-                               diagonal + (a[i - 1] == b[k - 1] ? 0U : 1U)});
+            row[k] =
+                std::min({row[k] + 1, row[k - 1] + 1, diagonal + (a[i - 1] == b[k - 1] ? 0U : 1U)});
             diagonal = up;
         }
     }
@@ -157,9 +155,9 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
                                               return edit_distance(key, a) < edit_distance(key, b);
                                           });
     const bool near = edit_distance(key, *nearest) <= 1 + key.size() / 3;
-    throw UsageError(fmt::format("{} ({}): no such parameter; {}", key, place.text(),
-                                 near ? fmt::format("did you mean {}?", *nearest)
-                                      : "docs/parameters.md lists all"));
+    throw UsageError(fmt::format(
+        "{} ({}): no such parameter; {}", key, place.text(),
+        near ? fmt::format("did you mean {}?", *nearest) : "docs/parameters.md lists all"));
 }
 
 void apply(const std::vector<Entry>& all, const std::string& key, const toml::node& value,
@@ -180,17 +178,17 @@ void apply(const std::vector<Entry>& all, const std::string& key, const toml::no
 void apply_table(const std::vector<Entry>& all, const toml::table& table, const std::string& prefix,
                  const std::string& name) {
     for (const auto& [key, node] : table) {
-        const std::string full = prefix.empty() ? std::string(key.str())
-                                                : prefix + "." + std::string(key.str());
+        const std::string full =
+            prefix.empty() ? std::string(key.str()) : prefix + "." + std::string(key.str());
         const Place place = place_of(key.source(), name);
-        const bool section = std::any_of(all.begin(), all.end(), [&](const Entry& e) {
-            return e.first.section == full;
-        });
+        const bool section = std::any_of(all.begin(), all.end(),
+                                         [&](const Entry& e) { return e.first.section == full; });
         if (prefix.empty() && section) {
             if (!node.is_table()) {
-                throw UsageError(fmt::format("{} ({}): this is a section; write [{}] on a line of "
-                                             "its own and its keys below",
-                                             full, place.text(), full));
+                throw UsageError(
+                    fmt::format("{} ({}): this is a section; write [{}] on a line of "
+                                "its own and its keys below",
+                                full, place.text(), full));
             }
             apply_table(all, *node.as_table(), full, name);
         } else {
@@ -219,9 +217,10 @@ struct Override {
 Override parse_override(const std::string& text) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
-        throw UsageError(fmt::format("--set {}: must be section.key=value, for example --set "
-                                     "field.cell_m=2",
-                                     text));
+        throw UsageError(
+            fmt::format("--set {}: must be section.key=value, for example --set "
+                        "field.cell_m=2",
+                        text));
     }
     Override out;
     out.key = text.substr(0, equals);
@@ -256,9 +255,10 @@ void check_together(const Config& c, const std::string& name) {
         fail("site.input is missing; name the site's file under [site], input = \"town.geojson\"");
     }
     if (c.scanner.range_min_m >= c.scanner.range_max_m) {
-        fail(fmt::format("scanner.range_min_m = {} is not below range_max_m = {}; nothing could "
-                         "be observed",
-                         c.scanner.range_min_m, c.scanner.range_max_m));
+        fail(
+            fmt::format("scanner.range_min_m = {} is not below range_max_m = {}; nothing could "
+                        "be observed",
+                        c.scanner.range_min_m, c.scanner.range_max_m));
     }
     if (!c.site.crop_m.empty() &&
         (c.site.crop_m.size() != 4 || c.site.crop_m[0] >= c.site.crop_m[2] ||
@@ -270,8 +270,9 @@ void check_together(const Config& c, const std::string& name) {
         fail(fmt::format("visibility.rays = {} must be 0 or a power of two from 16 on", rays));
     }
     if (c.plan.method == "certified") {
-        fail("plan.method = \"certified\" is not in this version; \"refined\" gives a plan with a "
-             "packing lower bound in summary.json");
+        fail(
+            "plan.method = \"certified\" is not in this version; \"refined\" gives a plan with a "
+            "packing lower bound in summary.json");
     }
 }
 
@@ -334,8 +335,8 @@ Config parse_config(const std::string& text, const std::string& name,
 Config read_config(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) {
-        throw UsageError(fmt::format("{}: no such job file; configs/ has some to copy",
-                                     file.string()));
+        throw UsageError(
+            fmt::format("{}: no such job file; configs/ has some to copy", file.string()));
     }
     return parse_config(read_text(file), file.string(), file.parent_path(), overrides);
 }
@@ -350,8 +351,7 @@ std::string to_toml(const Config& config) {
             out += fmt::format("\n[{}]\n", section);
         }
         const std::string line = fmt::format(
-            "{} = {}", p.name,
-            std::visit([](const auto* v) { return Writer()(v); }, value));
+            "{} = {}", p.name, std::visit([](const auto* v) { return Writer()(v); }, value));
         out += fmt::format("{:<32}  # {}\n", line, p.help);
     }
     return out;

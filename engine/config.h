@@ -62,9 +62,9 @@ struct Config {
     } output;
 };
 
-using ParameterValue = std::variant<std::string*, double*, std::int64_t*, bool*,
-                                    std::vector<double>*, std::vector<Vec2d>*,
-                                    std::vector<std::string>*>;
+using ParameterValue =
+    std::variant<std::string*, double*, std::int64_t*, bool*, std::vector<double>*,
+                 std::vector<Vec2d>*, std::vector<std::string>*>;
 
 // What a change of a parameter makes stale.
 enum class Stage : std::uint8_t { tables, plan, output };
@@ -72,10 +72,10 @@ enum class Stage : std::uint8_t { tables, plan, output };
 struct Parameter {
     std::string section;  // empty for the top level
     std::string name;
-    std::string help;     // one line, with the unit
+    std::string help;  // one line, with the unit
     Stage stage = Stage::tables;
     std::vector<std::string> choices = {};
-    double least = -1e300;     // for numbers
+    double least = -1e300;  // for numbers
     double most = 1e300;
     bool above_least = false;  // `least` itself is not allowed
 
@@ -93,8 +93,7 @@ Config read_config(const std::filesystem::path& file, const std::vector<std::str
 
 // The same from text, `name` for messages, `folder` for relative paths.
 Config parse_config(const std::string& text, const std::string& name,
-                    const std::filesystem::path& folder,
-                    const std::vector<std::string>& overrides);
+                    const std::filesystem::path& folder, const std::vector<std::string>& overrides);
 
 // The whole configuration as a job file with a comment for each key.
 std::string to_toml(const Config& config);

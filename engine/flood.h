@@ -7,20 +7,24 @@
 #include <queue>
 #include <vector>
 
-#include "kernels/grid.h"
 #include "kernels/free_cells.h"
+#include "kernels/grid.h"
 
 namespace vfplan {
 
-// A flood from many sources over free cells that no wall parts, nearest first: distance in steps of 10 and 14,
-// so that it is a whole number, and the neighbour that it came from. Ties fall the same way on
-// every machine.
+// A flood from many sources over free cells that no wall parts, nearest first: distance in steps of
+// 10 and 14, so that it is a whole number, and the neighbour that it came from. Ties fall the same
+// way on every machine.
 class Flood {
 public:
     // `closed`: see closed_links().
     Flood(const Grid& grid, const Raster<std::uint8_t>& free, const Raster<std::uint8_t>& closed)
-        : grid_(grid), free_(free), closed_(closed), distance_(free.size(), unreached),
-          from_(free.size(), -1), source_(free.size(), -1) {}
+        : grid_(grid),
+          free_(free),
+          closed_(closed),
+          distance_(free.size(), unreached),
+          from_(free.size(), -1),
+          source_(free.size(), -1) {}
 
     static constexpr std::int32_t unreached = std::numeric_limits<std::int32_t>::max();
 

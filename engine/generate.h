@@ -7,16 +7,16 @@
 namespace vfplan {
 
 struct GenerateOptions {
-    std::string kind;         // town | city | flat
+    std::string kind;  // town | city | flat
     std::uint64_t seed = 1;
-    double size_km = 2;       // city only: side length of the square
-    int rooms = 6;            // flat only
+    double size_km = 2;  // city only: side length of the square
+    int rooms = 6;       // flat only
 };
 
 // The statistics that a generated site states about itself; measured from what was generated.
 struct GenerateReport {
-    std::string geojson;   // one FeatureCollection, one feature a line, metres, see docs/file_format
-    std::string summary;   // for people: counts, areas, and for a town its five crops
+    std::string geojson;  // one FeatureCollection, one feature a line, metres, see docs/file_format
+    std::string summary;  // for people: counts, areas, and for a town its five crops
 };
 
 // town: the paper's town (appendix "Time and Space Complexity"): 637 buildings, 976 x 893 m,

@@ -42,18 +42,17 @@ Graph overlap_graph(const Threads& threads, const Pieces& pieces, const Coverage
     }
     constexpr std::int64_t block = 64;
     std::vector<std::vector<OverlapPair>> found(at((rows + block - 1) / block));
-    threads.for_each(static_cast<std::int64_t>(found.size()), 1,
-                     [&](std::int64_t from, std::int64_t to) {
-                         OverlapScratch scratch;
-                         for (std::int64_t b = from; b < to; ++b) {
-                             const std::int64_t last = std::min(rows, (b + 1) * block);
-                             for (std::int64_t r = b * block; r < last; ++r) {
-                                 overlaps_of_row(pieces, table, index, totals, ratio, threshold,
-                                                 static_cast<std::int32_t>(r), scratch,
-                                                 found[at(b)]);
-                             }
-                         }
-                     });
+    threads.for_each(
+        static_cast<std::int64_t>(found.size()), 1, [&](std::int64_t from, std::int64_t to) {
+            OverlapScratch scratch;
+            for (std::int64_t b = from; b < to; ++b) {
+                const std::int64_t last = std::min(rows, (b + 1) * block);
+                for (std::int64_t r = b * block; r < last; ++r) {
+                    overlaps_of_row(pieces, table, index, totals, ratio, threshold,
+                                    static_cast<std::int32_t>(r), scratch, found[at(b)]);
+                }
+            }
+        });
     std::vector<OverlapPair> pairs;
     for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
     return make_graph(static_cast<std::int32_t>(rows), pairs);

@@ -25,7 +25,10 @@ class Greedy {
 public:
     Greedy(const PlanInput& input, const std::vector<std::int32_t>& members,
            std::vector<std::uint8_t>& wanted)
-        : in_(input), members_(members), wanted_(wanted), chosen_(at(input.graph.size()), 0),
+        : in_(input),
+          members_(members),
+          wanted_(wanted),
+          chosen_(at(input.graph.size()), 0),
           overlap_(at(input.graph.size()), 0) {}
 
     Chosen run(const std::vector<std::int32_t>& forced) {
@@ -159,8 +162,7 @@ private:
 }  // namespace
 
 Chosen greedy_network(const PlanInput& input, const std::vector<std::int32_t>& members,
-                      const std::vector<std::int32_t>& forced,
-                      std::vector<std::uint8_t>& wanted) {
+                      const std::vector<std::int32_t>& forced, std::vector<std::uint8_t>& wanted) {
     assert(!members.empty());
     return Greedy(input, members, wanted).run(forced);
 }

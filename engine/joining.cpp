@@ -12,9 +12,7 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 // Sets of candidates that merge.
 class Sets {
 public:
-    explicit Sets(std::int32_t n) : parent_(at(n)) {
-        std::iota(parent_.begin(), parent_.end(), 0);
-    }
+    explicit Sets(std::int32_t n) : parent_(at(n)) { std::iota(parent_.begin(), parent_.end(), 0); }
     std::int32_t root(std::int32_t v) {
         while (parent_[at(v)] != v) v = parent_[at(v)] = parent_[at(parent_[at(v)])];
         return v;
@@ -61,8 +59,8 @@ Joining find_joining(const Threads& threads, const PlanInput& in, const PlanOpti
             --open;
         }
     }
-    const std::vector<std::int32_t> part = components(overlap_graph(
-        threads, in.pieces, in.table, OverlapRatio::min_len, options.threshold));
+    const std::vector<std::int32_t> part = components(
+        overlap_graph(threads, in.pieces, in.table, OverlapRatio::min_len, options.threshold));
     std::set<std::int32_t> parts;
     for (const Station& s : plan.stations) parts.insert(part[at(s.candidate)]);
     out.networks_by_min_len = static_cast<std::int64_t>(parts.size());

@@ -141,7 +141,8 @@ Metrics measure(const Threads& threads, const PlanInput& input, const Plan& plan
     Metrics m;
     const Graph graph = graph_of(plan);
     const Cuts cuts = find_cuts(graph);
-    for (const Station& s : plan.stations) m.networks = std::max<std::int64_t>(m.networks, s.network + 1);
+    for (const Station& s : plan.stations)
+        m.networks = std::max<std::int64_t>(m.networks, s.network + 1);
     m.bridges = cuts.bridges;
     m.articulation_stations = std::count(cuts.articulation.begin(), cuts.articulation.end(), 1);
     m.redundant_links = static_cast<std::int64_t>(plan.links.size()) -

@@ -10,24 +10,24 @@ namespace vfplan {
 
 struct Metrics {
     std::int64_t networks = 0;
-    double wapl = 0;                     // over connected ordered pairs, w = 1 - O; 0 for none
-    double wapl_penalty100 = 0;          // the paper's: 100 for each pair without a path
-    std::int64_t disconnected_pairs = 0; // unordered
-    double bottleneck_overlap = 0;       // weakest link that the main network cannot do without
+    double wapl = 0;                      // over connected ordered pairs, w = 1 - O; 0 for none
+    double wapl_penalty100 = 0;           // the paper's: 100 for each pair without a path
+    std::int64_t disconnected_pairs = 0;  // unordered
+    double bottleneck_overlap = 0;        // weakest link that the main network cannot do without
     std::int64_t bridges = 0;
     std::int64_t articulation_stations = 0;
-    std::int64_t redundant_links = 0;    // m - n + c
+    std::int64_t redundant_links = 0;  // m - n + c
     std::int64_t pieces_coverable = 0;
-    std::int64_t pieces_covered = 0;     // by the main network
-    std::int64_t pieces_unreached = 0;   // by other networks only
+    std::int64_t pieces_covered = 0;    // by the main network
+    std::int64_t pieces_unreached = 0;  // by other networks only
     double length_coverable_m = 0;
     double length_covered_m = 0;
     double length_all_m = 0;
-    std::vector<std::int64_t> multiplicity;   // pieces seen by k stations, the last: or more
-    std::vector<std::int64_t> range_tenths;   // station-piece pairs by tenths of range_max
-    std::vector<std::int64_t> incidence_tens; // the same by 10 degrees of incidence
+    std::vector<std::int64_t> multiplicity;    // pieces seen by k stations, the last: or more
+    std::vector<std::int64_t> range_tenths;    // station-piece pairs by tenths of range_max
+    std::vector<std::int64_t> incidence_tens;  // the same by 10 degrees of incidence
     std::int64_t lower_bound = 0;
-    double gap = 0;                      // (stations - lower_bound) / stations
+    double gap = 0;  // (stations - lower_bound) / stations
 };
 
 // Thread count changes nothing. `walls` serve the histograms only.

@@ -62,10 +62,9 @@ Threads::~Threads() = default;
 void Threads::for_each(std::int64_t n, std::int64_t grain,
                        const std::function<void(std::int64_t, std::int64_t)>& body) const {
     impl_->arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, n, static_cast<std::size_t>(grain)),
-                          [&](const tbb::blocked_range<std::int64_t>& r) {
-                              body(r.begin(), r.end());
-                          });
+        tbb::parallel_for(
+            tbb::blocked_range<std::int64_t>(0, n, static_cast<std::size_t>(grain)),
+            [&](const tbb::blocked_range<std::int64_t>& r) { body(r.begin(), r.end()); });
     });
 }
 

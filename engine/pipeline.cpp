@@ -21,9 +21,9 @@ std::string input_hash(const Config& config) {
     std::error_code error;
     for (const std::string* path : {&config.site.input, &config.plan.forbidden}) {
         if (path->empty() || std::filesystem::exists(*path, error)) continue;
-        throw IoError(fmt::format("{}: no such file; check {} in the job file, it is relative to it",
-                                  *path,
-                                  path == &config.site.input ? "site.input" : "plan.forbidden"));
+        throw IoError(
+            fmt::format("{}: no such file; check {} in the job file, it is relative to it", *path,
+                        path == &config.site.input ? "site.input" : "plan.forbidden"));
     }
     std::string hash;
     if (std::filesystem::is_regular_file(config.site.input)) {
@@ -64,14 +64,14 @@ std::string site_text(const Site& site) {
 
 std::string estimate_text(const Config& config, const Prepared& p) {
     const Estimate e = estimate(config, p);
-    return fmt::format("cells        {} of {} m, {} of them free\n"
-                       "pieces       {}\n"
-                       "candidates   about {}\n"
-                       "memory       about {:.0f} MB\n"
-                       "disk         about {:.1f} MB\n"
-                       "The job is valid; nothing was written.\n",
-                       e.cells, config.field.cell_m, e.free_cells, e.pieces, e.candidates,
-                       e.memory_mb, e.disk_mb);
+    return fmt::format(
+        "cells        {} of {} m, {} of them free\n"
+        "pieces       {}\n"
+        "candidates   about {}\n"
+        "memory       about {:.0f} MB\n"
+        "disk         about {:.1f} MB\n"
+        "The job is valid; nothing was written.\n",
+        e.cells, config.field.cell_m, e.free_cells, e.pieces, e.candidates, e.memory_mb, e.disk_mb);
 }
 
 void add_times(Json& j, const Progress& progress) {
@@ -187,9 +187,9 @@ std::string run_job(const Config& config, const JobOptions& options, Progress& p
     }
     std::string text;
     if (options.plan) {
-        text = finish_plan(dir, config, tables.field, tables.coverage,
-                           config.visibility.kernel != "exact", std::move(summary), threads,
-                           progress);
+        text =
+            finish_plan(dir, config, tables.field, tables.coverage,
+                        config.visibility.kernel != "exact", std::move(summary), threads, progress);
     } else {
         progress.finish();
         summary["candidates"] = tables.coverage.candidates.size();
@@ -201,21 +201,20 @@ std::string run_job(const Config& config, const JobOptions& options, Progress& p
                            tables.coverage.candidates.size(), tables.coverage.pieces.size());
     }
     write_provenance(dir, config, input_sha256, threads.count());
-    return text + fmt::format("written to   {} in {:.1f} s\n", dir.path().string(),
-                              progress.wall_s());
+    return text +
+           fmt::format("written to   {} in {:.1f} s\n", dir.path().string(), progress.wall_s());
 }
 
-std::string plan_again(const std::filesystem::path& path,
-                       const std::vector<std::string>& overrides, int thread_count,
-                       Progress& progress) {
+std::string plan_again(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                       int thread_count, Progress& progress) {
     for (const std::string& s : overrides) {
-        if (s.rfind("plan.", 0) == 0 || s.rfind("overlap.", 0) == 0 ||
-            s.rfind("output.", 0) == 0) {
+        if (s.rfind("plan.", 0) == 0 || s.rfind("overlap.", 0) == 0 || s.rfind("output.", 0) == 0) {
             continue;
         }
-        throw UsageError(fmt::format("--set {}: plan works from finished tables, so only plan.*, "
-                                     "overlap.* and output.* can be set; use run for the rest",
-                                     s));
+        throw UsageError(
+            fmt::format("--set {}: plan works from finished tables, so only plan.*, "
+                        "overlap.* and output.* can be set; use run for the rest",
+                        s));
     }
     const Threads threads(thread_count);
     const RunDir dir(path);

@@ -21,7 +21,8 @@ bool same_pieces(const CoverageTable& table, std::int32_t row, const CoverageRow
 }
 
 // Puts rows in the place of others; pieces that no row covers any more lose their reach.
-void replace_rows(CoverageTables& t, const std::vector<std::pair<std::int32_t, CoverageRow>>& rows) {
+void replace_rows(CoverageTables& t,
+                  const std::vector<std::pair<std::int32_t, CoverageRow>>& rows) {
     CoverageTable table;
     std::size_t next = 0;
     for (std::int32_t r = 0; r < t.table.rows(); ++r) {
@@ -68,16 +69,15 @@ MapInput map_of(const Config& config, const FieldTable& field, const CoverageTab
     MapInput map;
     map.title = std::filesystem::path(config.site.input).filename().string();
     const Metrics& m = planned.metrics;
-    map.subtitle = fmt::format(
-        "{} stations in {} network{}, {:.1f} % of the coverable wall in the main one",
-        planned.plan.stations.size(), m.networks, m.networks == 1 ? "" : "s",
-        m.length_coverable_m > 0 ? 100 * m.length_covered_m / m.length_coverable_m : 0);
+    map.subtitle =
+        fmt::format("{} stations in {} network{}, {:.1f} % of the coverable wall in the main one",
+                    planned.plan.stations.size(), m.networks, m.networks == 1 ? "" : "s",
+                    m.length_coverable_m > 0 ? 100 * m.length_covered_m / m.length_coverable_m : 0);
     map.grid = &field.grid;
     map.field_rad = &field.vf_rad;
     map.walls = &t.walls;
     for (const Station& s : planned.plan.stations) {
-        map.stations.push_back(
-            {t.candidates[static_cast<std::size_t>(s.candidate)].at, s.network});
+        map.stations.push_back({t.candidates[static_cast<std::size_t>(s.candidate)].at, s.network});
     }
     for (const Link& l : planned.plan.links) map.links.push_back({l.from, l.to});
     for (std::size_t p = 0; p < planned.plan.pieces.size(); ++p) {
@@ -125,7 +125,8 @@ Planned plan_tables(const Config& config, CoverageTables& t, bool confirm, const
             std::vector<CoverageRow> rows = viewer.rows(threads, eyes);
             for (std::size_t i = 0; i < rows.size(); ++i) {
                 const std::int32_t c = out.plan.stations[i].candidate;
-                if (!same_pieces(t.table, c, rows[i])) corrected.emplace_back(c, std::move(rows[i]));
+                if (!same_pieces(t.table, c, rows[i]))
+                    corrected.emplace_back(c, std::move(rows[i]));
             }
             std::sort(corrected.begin(), corrected.end(),
                       [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -237,8 +238,8 @@ void write_plan_files(const RunDir& dir, const Config& config, const FieldTable&
         write_text(dir.file("stations.geojson"), stations_geojson(t, p.plan));
     }
     if (wants(config, "png")) {
-        write_text(dir.file("map.png"), map_png(map_of(config, field, t, p),
-                                                static_cast<int>(config.output.map_px)));
+        write_text(dir.file("map.png"),
+                   map_png(map_of(config, field, t, p), static_cast<int>(config.output.map_px)));
     }
 }
 
@@ -261,15 +262,17 @@ std::string apart_text(const Planned& p, const Config& config) {
         "network_list)\n",
         m.pieces_unreached, m.networks - 1, m.networks == 2 ? "" : "s");
     if (enclosed > 0) {
-        out += fmt::format("             {} of them see nothing that is seen from the main one: "
-                           "walls enclose them\n",
-                           enclosed);
+        out += fmt::format(
+            "             {} of them see nothing that is seen from the main one: "
+            "walls enclose them\n",
+            enclosed);
     }
     if (const std::int64_t weak = m.networks - 1 - enclosed; weak > 0) {
-        out += fmt::format("             {} would join at overlap.threshold = {:.3f} (now {}); "
-                           "with ratio min_len there would be {} networks\n",
-                           weak, std::floor(least * 1000) / 1000, config.overlap.threshold,
-                           p.joining.networks_by_min_len);
+        out += fmt::format(
+            "             {} would join at overlap.threshold = {:.3f} (now {}); "
+            "with ratio min_len there would be {} networks\n",
+            weak, std::floor(least * 1000) / 1000, config.overlap.threshold,
+            p.joining.networks_by_min_len);
     }
     return out;
 }
@@ -291,10 +294,11 @@ std::string plan_text(const Planned& p, const CoverageTables& t, const Config& c
         out += fmt::format("no viewpoint {} pieces, {:.2f} % of all wall length (pieces.csv)\n",
                            nobody, share(m.length_all_m - m.length_coverable_m, m.length_all_m));
     }
-    out += fmt::format("network      WAPL {:.3f}, weakest needed overlap {:.3f}, {} bridge{}, {} "
-                       "articulation stations\n",
-                       m.wapl, m.bottleneck_overlap, m.bridges, m.bridges == 1 ? "" : "s",
-                       m.articulation_stations);
+    out += fmt::format(
+        "network      WAPL {:.3f}, weakest needed overlap {:.3f}, {} bridge{}, {} "
+        "articulation stations\n",
+        m.wapl, m.bottleneck_overlap, m.bridges, m.bridges == 1 ? "" : "s",
+        m.articulation_stations);
     return out;
 }
 

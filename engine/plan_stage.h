@@ -39,7 +39,6 @@ void write_plan_files(const RunDir& dir, const Config& config, const FieldTable&
                       const CoverageTables& tables, const Planned& planned);
 
 // What a person wants to know of it, a few lines.
-std::string plan_text(const Planned& planned, const CoverageTables& tables,
-                      const Config& config);
+std::string plan_text(const Planned& planned, const CoverageTables& tables, const Config& config);
 
 }  // namespace vfplan

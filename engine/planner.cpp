@@ -245,10 +245,11 @@ std::vector<std::int32_t> independent_pieces(const PlanInput& in) {
             order.push_back(static_cast<std::int32_t>(p));
         }
     }
-    const auto viewers = [&](std::int32_t p) { return index.begin[at(p) + 1] - index.begin[at(p)]; };
-    std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-        return viewers(a) < viewers(b);
-    });
+    const auto viewers = [&](std::int32_t p) {
+        return index.begin[at(p) + 1] - index.begin[at(p)];
+    };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::int32_t a, std::int32_t b) { return viewers(a) < viewers(b); });
     std::vector<std::uint8_t> used(at(in.table.rows()), 0);
     std::vector<std::int32_t> out;
     for (const std::int32_t p : order) {

@@ -31,10 +31,10 @@ struct PlanInput {
 
 // What happened on the way.
 struct PlanReport {
-    std::int64_t greedy_stations = 0;      // Algorithm 1 alone
-    std::int64_t pruned_stations = 0;      // taken out again
-    std::int64_t before_loops = 0;         // VC before loops were closed
-    std::int64_t loose_before = 0;         // stations on no cycle, before and after
+    std::int64_t greedy_stations = 0;  // Algorithm 1 alone
+    std::int64_t pruned_stations = 0;  // taken out again
+    std::int64_t before_loops = 0;     // VC before loops were closed
+    std::int64_t loose_before = 0;     // stations on no cycle, before and after
     std::int64_t loose_after = 0;
 };
 
@@ -50,8 +50,7 @@ using Chosen = std::vector<std::int32_t>;
 // component, ascending) until every piece with wanted[piece] that they can cover is covered;
 // clears `wanted` of what it covers. `forced` members are taken first, joined by shortest paths.
 Chosen greedy_network(const PlanInput& input, const std::vector<std::int32_t>& members,
-                      const std::vector<std::int32_t>& forced,
-                      std::vector<std::uint8_t>& wanted);
+                      const std::vector<std::int32_t>& forced, std::vector<std::uint8_t>& wanted);
 
 // Takes out, last chosen first, what neither coverage nor connection needs. `kept` (by candidate)
 // must stay; `count` holds how many stations of this network and those before it cover each
@@ -59,7 +58,8 @@ Chosen greedy_network(const PlanInput& input, const std::vector<std::int32_t>& m
 Chosen prune_network(const PlanInput& input, const Chosen& chosen,
                      const std::vector<std::uint8_t>& kept, std::vector<std::int32_t>& count);
 
-// Adds the fewest candidates that put every station on a cycle, where there are any.
+// Adds, for each station on no cycle, the fewest candidates that put it on one through another
+// station, where there are any.
 Chosen close_loops(const PlanInput& input, const Chosen& chosen);
 
 // Pieces no two of which share a candidate, greedily: a lower bound (Plan::bound_pieces).

@@ -26,7 +26,9 @@ std::string span_text(double s) {
 Moment Moment::now() { return {seconds(CLOCK_MONOTONIC), seconds(CLOCK_PROCESS_CPUTIME_ID)}; }
 
 Progress::Progress(bool quiet)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), begin_(Moment::now()),
+    : quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      begin_(Moment::now()),
       stage_begin_(begin_) {}
 
 void Progress::stage(const std::string& name, std::int64_t total) {
@@ -56,9 +58,8 @@ void Progress::show(std::int64_t done, bool last) {
         if (!last && now - shown_at_s_ < 0.1) return;
         constexpr int width = 30;
         const int filled = static_cast<int>(width * done / total_);
-        const double left = done > 0 ? spent * static_cast<double>(total_ - done) /
-                                           static_cast<double>(done)
-                                     : 0;
+        const double left =
+            done > 0 ? spent * static_cast<double>(total_ - done) / static_cast<double>(done) : 0;
         fmt::print(stderr, "\r{:<12} [{:=<{}}{:{}}] {:3d} %  {} left\033[K", name_, "", filled, "",
                    width - filled, percent, span_text(left));
         std::fflush(stderr);

@@ -8,7 +8,7 @@
 namespace vfplan {
 namespace {
 
-constexpr int samples = 8;             // points along a piece that are looked from
+constexpr int samples = 8;               // points along a piece that are looked from
 constexpr double off_the_wall_m = 2e-4;  // how far before the wall they lie
 constexpr std::size_t tests_most = 200;  // real views from cells that look good
 
@@ -39,7 +39,7 @@ public:
         const Vec2d to = wall(s).at(s.s_end_m) - eye_;
         const Vec2d d = p - eye_;
         if (cross(from, d) < 0 || cross(d, to) < 0) return true;  // between spans: open
-        return cross(to - from, d - from) > 0;                     // before the wall
+        return cross(to - from, d - from) > 0;                    // before the wall
     }
 
     // Everything in sight within range.
@@ -73,8 +73,8 @@ private:
 
 struct Option {
     std::int64_t cell;
-    int seen;      // sample points in sight
-    bool domain;   // VF above the threshold
+    int seen;     // sample points in sight
+    bool domain;  // VF above the threshold
     float vf;
 };
 
@@ -87,8 +87,8 @@ std::vector<Option> options_for(const CandidatePool& pool, std::int64_t piece) {
     const Pieces& pieces = viewer.pieces();
     const Wall& wall = viewer.walls()[at(pieces.wall[at(piece)])];
     const Vec2d e = (wall.b - wall.a).normalized();
-    const Vec2d normal = pieces.side[at(piece)] == left ? Vec2d(-e.y(), e.x())
-                                                        : Vec2d(e.y(), -e.x());
+    const Vec2d normal =
+        pieces.side[at(piece)] == left ? Vec2d(-e.y(), e.x()) : Vec2d(e.y(), -e.x());
     std::vector<Vec2d> points;
     std::vector<Sight> sights;
     Box box;
@@ -146,8 +146,7 @@ std::int64_t best_cell(const CandidatePool& pool, std::int64_t piece) {
     // Cells that see every sample point are nearly certain; look at those first.
     std::stable_partition(options.begin(), options.end(),
                           [](const Option& o) { return o.seen == samples; });
-    std::stable_partition(options.begin(), options.end(),
-                          [](const Option& o) { return o.domain; });
+    std::stable_partition(options.begin(), options.end(), [](const Option& o) { return o.domain; });
     for (std::size_t i = 0; i < std::min(options.size(), tests_most); ++i) {
         const std::int64_t cell = options[i].cell;
         if (covers(pool.viewer().row(pool.ground().grid.centre(cell)), piece)) return cell;

@@ -42,15 +42,17 @@ void RunDir::check(const JobKeys& keys, bool fresh) const {
     }
     if (std::filesystem::is_empty(path_, error)) return;
     if (!std::filesystem::exists(file("job.toml"), error)) {
-        throw UsageError(fmt::format("{}: holds files but no run of this program; choose another "
-                                     "--out or an empty folder",
-                                     path_.string()));
+        throw UsageError(
+            fmt::format("{}: holds files but no run of this program; choose another "
+                        "--out or an empty folder",
+                        path_.string()));
     }
     const std::string stored = stored_key();
     if (stored == keys.job || fresh) return;
-    throw UsageError(fmt::format("{}: holds the run of another job (its hash {}, this job's {}); "
-                                 "choose another --out, or --fresh to replace it",
-                                 path_.string(), stored.substr(0, 16), keys.job.substr(0, 16)));
+    throw UsageError(
+        fmt::format("{}: holds the run of another job (its hash {}, this job's {}); "
+                    "choose another --out, or --fresh to replace it",
+                    path_.string(), stored.substr(0, 16), keys.job.substr(0, 16)));
 }
 
 void RunDir::begin(const Config& config, const JobKeys& keys) const {

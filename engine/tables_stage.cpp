@@ -49,11 +49,12 @@ std::vector<Vec2d> in_site_frame(const std::vector<Vec2d>& points, const Prepare
         const auto ix = static_cast<std::int32_t>(std::floor(cell.x()));
         const auto iy = static_cast<std::int32_t>(std::floor(cell.y()));
         const bool inside = p.grid.inside(ix, iy);
-        if (!inside || (must_stand &&
-                        p.standable[static_cast<std::size_t>(p.grid.id(ix, iy))] == 0)) {
-            throw UsageError(fmt::format("{}: no station can stand at ({}, {}); give a point in "
-                                         "free space, in the file's metres",
-                                         key, point.x(), point.y()));
+        if (!inside ||
+            (must_stand && p.standable[static_cast<std::size_t>(p.grid.id(ix, iy))] == 0)) {
+            throw UsageError(
+                fmt::format("{}: no station can stand at ({}, {}); give a point in "
+                            "free space, in the file's metres",
+                            key, point.x(), point.y()));
         }
         out.push_back(at);
     }
@@ -101,25 +102,28 @@ Prepared prepare(const Config& config, Site site) {
     const Vec2d size = p.site.extent.size();
     const double cell = config.field.cell_m;
     if (cell > size.x() || cell > size.y()) {
-        throw UsageError(fmt::format("field.cell_m = {}: a cell is larger than the site, which is "
-                                     "{:.1f} x {:.1f} m; choose a smaller one",
-                                     cell, size.x(), size.y()));
+        throw UsageError(
+            fmt::format("field.cell_m = {}: a cell is larger than the site, which is "
+                        "{:.1f} x {:.1f} m; choose a smaller one",
+                        cell, size.x(), size.y()));
     }
     const double cells = std::ceil(size.x() / cell) * std::ceil(size.y() / cell);
-    const double ram = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
-                       static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    const double ram =
+        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
     if (cells > 2e9 || cells * bytes_per_cell > 0.9 * ram) {
-        throw UsageError(fmt::format("field.cell_m = {}: {:.3g} cells need about {:.1f} GB and "
-                                     "this machine has {:.1f} GB; choose larger cells or crop_m",
-                                     cell, cells, cells * bytes_per_cell / 1e9, ram / 1e9));
+        throw UsageError(
+            fmt::format("field.cell_m = {}: {:.3g} cells need about {:.1f} GB and "
+                        "this machine has {:.1f} GB; choose larger cells or crop_m",
+                        cell, cells, cells * bytes_per_cell / 1e9, ram / 1e9));
     }
     p.grid = make_grid(p.site.extent, cell, config.site.snap_m);
     p.standable = free_cells(p.grid, p.site.free_region);
     forbid(config, p.site, p.grid, p.standable);
     if (std::count(p.standable.begin(), p.standable.end(), 1) == 0) {
-        throw UsageError(fmt::format("field.cell_m = {}: no cell's centre lies in free space; "
-                                     "choose a smaller cell",
-                                     cell));
+        throw UsageError(
+            fmt::format("field.cell_m = {}: no cell's centre lies in free space; "
+                        "choose a smaller cell",
+                        cell));
     }
     return p;
 }
@@ -131,16 +135,16 @@ Estimate estimate(const Config& config, const Prepared& p) {
     e.pieces = cut_into_pieces(p.site.walls, config.coverage.partition_m).size();
     // Joints come about twice per building or room, ridge points as many again.
     e.candidates = std::max<std::int64_t>(4, 3 * p.site.buildings);
-    const double entries = static_cast<double>(e.candidates) *
-                           std::min(400.0, static_cast<double>(e.pieces));
+    const double entries =
+        static_cast<double>(e.candidates) * std::min(400.0, static_cast<double>(e.pieces));
     e.memory_mb = (static_cast<double>(e.cells) * bytes_per_cell + entries * 24 +
                    static_cast<double>(p.site.walls.size()) * 400) /
                       1e6 +
                   60;
-    e.disk_mb = (static_cast<double>(e.free_cells) * 3 + entries * 5 +
-                 static_cast<double>(e.pieces) * 80) /
-                    1e6 +
-                1;
+    e.disk_mb =
+        (static_cast<double>(e.free_cells) * 3 + entries * 5 + static_cast<double>(e.pieces) * 80) /
+            1e6 +
+        1;
     return e;
 }
 
@@ -162,8 +166,7 @@ Tables make_tables(const Config& config, const Prepared& p, const std::string& k
     CoverageTables& c = out.coverage;
     c.walls = p.site.walls;
     c.pieces = cut_into_pieces(p.site.walls, config.coverage.partition_m);
-    const Viewer viewer(*kernel, p.site.walls, c.pieces, scanner,
-                        config.coverage.visible_fraction);
+    const Viewer viewer(*kernel, p.site.walls, c.pieces, scanner, config.coverage.visible_fraction);
 
     progress.stage("field", p.grid.size());
     out.field = {p.grid,

@@ -32,8 +32,8 @@ private:
 };
 
 // Every piece's status against what the stations' exact rows cover.
-void check_coverage(const CoverageTables& t, const Plan& plan,
-                    const std::vector<CoverageRow>& rows, Checks& checks) {
+void check_coverage(const CoverageTables& t, const Plan& plan, const std::vector<CoverageRow>& rows,
+                    Checks& checks) {
     std::vector<std::uint8_t> main(plan.pieces.size(), 0);
     std::vector<std::uint8_t> other(plan.pieces.size(), 0);
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -62,25 +62,24 @@ void check_coverage(const CoverageTables& t, const Plan& plan,
     }
     checks.add(not_covered == 0,
                fmt::format("{} pieces are covered by the main network{}", covered - not_covered,
-                           not_covered > 0 ? fmt::format("; {} more are said to be and are not",
-                                                         not_covered)
-                                           : ""));
+                           not_covered > 0
+                               ? fmt::format("; {} more are said to be and are not", not_covered)
+                               : ""));
     if (unreached > 0) {
-        checks.add(unreached_wrong == 0,
-                   fmt::format("{} pieces are covered by other networks only{}",
-                               unreached - unreached_wrong,
-                               unreached_wrong > 0
-                                   ? fmt::format("; {} more are said to be and are not",
-                                                 unreached_wrong)
-                                   : ""));
+        checks.add(
+            unreached_wrong == 0,
+            fmt::format("{} pieces are covered by other networks only{}",
+                        unreached - unreached_wrong,
+                        unreached_wrong > 0
+                            ? fmt::format("; {} more are said to be and are not", unreached_wrong)
+                            : ""));
     }
     const std::int64_t rest = t.pieces.size() - covered - unreached;
-    checks.add(seen_after_all == 0,
-               fmt::format("{} pieces are covered by no station, as the plan says{}",
-                           rest - seen_after_all,
-                           seen_after_all > 0 ? fmt::format("; {} more are, after all",
-                                                            seen_after_all)
-                                              : ""));
+    checks.add(
+        seen_after_all == 0,
+        fmt::format(
+            "{} pieces are covered by no station, as the plan says{}", rest - seen_after_all,
+            seen_after_all > 0 ? fmt::format("; {} more are, after all", seen_after_all) : ""));
 }
 
 void check_connection(const CoverageTables& t, const PlanTable& table,
@@ -136,22 +135,21 @@ void check_field(const Viewer& viewer, const Threads& threads, const FieldTable&
     for (std::size_t i = step / 2; i < cells.size(); i += step) chosen.push_back(cells[i]);
     std::vector<double> error(chosen.size(), 0);
     std::vector<std::int64_t> seen_after_all(chosen.size(), 0);
-    threads.for_each(static_cast<std::int64_t>(chosen.size()), 8,
-                     [&](std::int64_t from, std::int64_t to) {
-                         for (std::int64_t i = from; i < to; ++i) {
-                             const Vec2d eye = field.grid.centre(chosen[at(i)]);
-                             const View seen = viewer.observed(eye);
-                             error[at(i)] = std::abs(
-                                 view_angle_rad(seen) -
-                                 static_cast<double>(field.vf_rad[at(chosen[at(i)])]));
-                             for (const Seen& s : coverage_row(t.walls, t.pieces, eye, seen,
-                                                               viewer.visible_fraction())) {
-                                 if (plan.pieces[at(s.piece)] == PieceStatus::no_viewpoint) {
-                                     ++seen_after_all[at(i)];
-                                 }
-                             }
-                         }
-                     });
+    threads.for_each(
+        static_cast<std::int64_t>(chosen.size()), 8, [&](std::int64_t from, std::int64_t to) {
+            for (std::int64_t i = from; i < to; ++i) {
+                const Vec2d eye = field.grid.centre(chosen[at(i)]);
+                const View seen = viewer.observed(eye);
+                error[at(i)] = std::abs(view_angle_rad(seen) -
+                                        static_cast<double>(field.vf_rad[at(chosen[at(i)])]));
+                for (const Seen& s :
+                     coverage_row(t.walls, t.pieces, eye, seen, viewer.visible_fraction())) {
+                    if (plan.pieces[at(s.piece)] == PieceStatus::no_viewpoint) {
+                        ++seen_after_all[at(i)];
+                    }
+                }
+            }
+        });
     double sum = 0;
     double worst = 0;
     std::int64_t wrong = 0;
@@ -163,10 +161,11 @@ void check_field(const Viewer& viewer, const Threads& threads, const FieldTable&
     const double mean = chosen.empty() ? 0 : sum / static_cast<double>(chosen.size());
     // Floats keep 7 digits of an angle; rays may miss what is thinner than their spacing.
     const double allowed = kernel == "exact" ? 1e-6 : 5e-3;
-    checks.add(mean <= allowed,
-               fmt::format("field at {} cells: mean error {:.2e} rad, worst {:.2e} (kernel {}, mean "
-                           "allowed {:.0e})",
-                           chosen.size(), mean, worst, kernel, allowed));
+    checks.add(
+        mean <= allowed,
+        fmt::format("field at {} cells: mean error {:.2e} rad, worst {:.2e} (kernel {}, mean "
+                    "allowed {:.0e})",
+                    chosen.size(), mean, worst, kernel, allowed));
     checks.add(wrong == 0, fmt::format("none of these cells sees a piece that is said to have no "
                                        "viewpoint{}",
                                        wrong > 0 ? fmt::format(": {} times wrong", wrong) : ""));
@@ -204,8 +203,7 @@ VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Pro
     const PlanTable table = read_plan(dir.file("plan.h5"));
     progress.stage("look again");
     Box box{field.grid.origin,
-            field.grid.origin +
-                field.grid.cell_m * Vec2d(field.grid.nx, field.grid.ny)};
+            field.grid.origin + field.grid.cell_m * Vec2d(field.grid.nx, field.grid.ny)};
     for (const Candidate& c : t.candidates) box.add(c.at);
     const std::unique_ptr<ViewKernel> exact =
         make_kernel("exact", t.walls, box, config.scanner.range_max_m, 0);

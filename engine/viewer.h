@@ -21,7 +21,10 @@ class Viewer {
 public:
     Viewer(const ViewKernel& kernel, const std::vector<Wall>& walls, const Pieces& pieces,
            const Scanner& scanner, double visible_fraction)
-        : kernel_(kernel), walls_(walls), pieces_(pieces), scanner_(scanner),
+        : kernel_(kernel),
+          walls_(walls),
+          pieces_(pieces),
+          scanner_(scanner),
           visible_fraction_(visible_fraction) {}
 
     const std::vector<Wall>& walls() const { return walls_; }

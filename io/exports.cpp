@@ -25,8 +25,9 @@ std::string stations_csv(const CoverageTables& t, const Plan& plan) {
 }
 
 std::string stations_geojson(const CoverageTables& t, const Plan& plan) {
-    std::string out = "{\"type\": \"FeatureCollection\", \"name\": \"stations\", \"units\": \"m\", "
-                      "\"features\": [\n";
+    std::string out =
+        "{\"type\": \"FeatureCollection\", \"name\": \"stations\", \"units\": \"m\", "
+        "\"features\": [\n";
     for (std::size_t i = 0; i < plan.stations.size(); ++i) {
         const Station& s = plan.stations[i];
         const Candidate& c = candidate_of(t, s);
@@ -37,8 +38,7 @@ std::string stations_geojson(const CoverageTables& t, const Plan& plan) {
             "{}, \"kind\": \"{}\", \"new_length_m\": {:.3f}, \"seen_length_m\": {:.3f}}}, "
             "\"geometry\": {{\"type\": \"Point\", \"coordinates\": [{:.4f}, {:.4f}]}}}}{}\n",
             i, s.network, s.order, candidate_kind_names[static_cast<std::size_t>(c.kind)],
-            s.new_length_m, s.seen_length_m, p.x(), p.y(),
-            i + 1 < plan.stations.size() ? "," : "");
+            s.new_length_m, s.seen_length_m, p.x(), p.y(), i + 1 < plan.stations.size() ? "," : "");
     }
     return out + "]}\n";
 }

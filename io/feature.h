@@ -42,8 +42,8 @@ struct Feature {
 // All that was read from one file.
 struct FeatureSet {
     std::vector<Feature> features;
-    std::string crs_wkt;         // empty when unknown
-    std::int64_t ignored = 0;    // points, empty geometries, features that are no building
+    std::string crs_wkt;       // empty when unknown
+    std::int64_t ignored = 0;  // points, empty geometries, features that are no building
     std::vector<std::string> warnings;
 };
 

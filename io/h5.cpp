@@ -34,17 +34,29 @@ private:
 template <class T>
 hid_t type_of();
 template <>
-hid_t type_of<float>() { return H5T_IEEE_F32LE; }
+hid_t type_of<float>() {
+    return H5T_IEEE_F32LE;
+}
 template <>
-hid_t type_of<double>() { return H5T_IEEE_F64LE; }
+hid_t type_of<double>() {
+    return H5T_IEEE_F64LE;
+}
 template <>
-hid_t type_of<std::int8_t>() { return H5T_STD_I8LE; }
+hid_t type_of<std::int8_t>() {
+    return H5T_STD_I8LE;
+}
 template <>
-hid_t type_of<std::uint8_t>() { return H5T_STD_U8LE; }
+hid_t type_of<std::uint8_t>() {
+    return H5T_STD_U8LE;
+}
 template <>
-hid_t type_of<std::int32_t>() { return H5T_STD_I32LE; }
+hid_t type_of<std::int32_t>() {
+    return H5T_STD_I32LE;
+}
 template <>
-hid_t type_of<std::int64_t>() { return H5T_STD_I64LE; }
+hid_t type_of<std::int64_t>() {
+    return H5T_STD_I64LE;
+}
 
 void be_quiet() {
     static const herr_t once = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -223,9 +235,10 @@ struct Reader::Impl {
     hid_t file = -1;
 
     [[noreturn]] void fail(const std::string& what) const {
-        throw IoError(fmt::format("{}: {}; the file is damaged or not one of ours, run the job "
-                                  "again with --fresh",
-                                  path.string(), what));
+        throw IoError(
+            fmt::format("{}: {}; the file is damaged or not one of ours, run the job "
+                        "again with --fresh",
+                        path.string(), what));
     }
 };
 

@@ -11,7 +11,7 @@
 namespace vfplan {
 
 struct MapStation {
-    Vec2d at;                // site frame, metres
+    Vec2d at;                  // site frame, metres
     std::int32_t network = 0;  // 0 is the main network
 };
 
@@ -27,8 +27,8 @@ struct MapUncovered {
 };
 
 struct MapInput {
-    std::string title;                  // one line, the site's name
-    std::string subtitle;               // one line, what the plan reached
+    std::string title;     // one line, the site's name
+    std::string subtitle;  // one line, what the plan reached
     const Grid* grid = nullptr;
     const Raster<float>* field_rad = nullptr;  // NaN where no station can stand
     const std::vector<Wall>* walls = nullptr;

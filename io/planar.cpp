@@ -31,9 +31,10 @@ using Geometry = std::unique_ptr<GEOSGeometry, GeometryDestroyer>;
 
 Geometry checked(GEOSGeometry* g, const char* what) {
     if (g == nullptr) {
-        throw InputError(fmt::format("the geometry library failed in {}; set site.invalid = "
-                                     "\"repair\" or clean the input",
-                                     what));
+        throw InputError(
+            fmt::format("the geometry library failed in {}; set site.invalid = "
+                        "\"repair\" or clean the input",
+                        what));
     }
     return Geometry(g);
 }
@@ -168,8 +169,8 @@ std::vector<Polygon> repaired(const Polygon& p) {
 
 std::vector<Polygon> unite(const std::vector<Polygon>& polygons, double snap_m) {
     if (polygons.empty()) return {};
-    return polygons_in(checked(
-        GEOSUnaryUnionPrec_r(context(), polygons_of(polygons).get(), snap_m), "a union"));
+    return polygons_in(
+        checked(GEOSUnaryUnionPrec_r(context(), polygons_of(polygons).get(), snap_m), "a union"));
 }
 
 std::vector<Polygon> subtract(const std::vector<Polygon>& from, const std::vector<Polygon>& what,
@@ -192,10 +193,10 @@ std::vector<Polygon> intersect(const std::vector<Polygon>& a, const std::vector<
 
 std::vector<Polygon> grow(const std::vector<Polygon>& polygons, double distance_m) {
     if (polygons.empty()) return {};
-    return polygons_in(checked(GEOSBufferWithStyle_r(context(), polygons_of(polygons).get(),
-                                                     distance_m, 4, GEOSBUF_CAP_SQUARE,
-                                                     GEOSBUF_JOIN_MITRE, 2.0),
-                               "a buffer"));
+    return polygons_in(
+        checked(GEOSBufferWithStyle_r(context(), polygons_of(polygons).get(), distance_m, 4,
+                                      GEOSBUF_CAP_SQUARE, GEOSBUF_JOIN_MITRE, 2.0),
+                "a buffer"));
 }
 
 std::vector<Polygon> strips(const std::vector<Line>& lines, double distance_m, bool flat) {
@@ -259,8 +260,7 @@ LineIndex::LineIndex(const std::vector<Line>& lines) : impl_(new Impl{lines, {},
         impl_->number[i] = i;
         impl_->boxes.push_back(
             Geometry(GEOSGeom_createLineString_r(context(), sequence(lines[i], false))));
-        GEOSSTRtree_insert_r(context(), impl_->tree, impl_->boxes.back().get(),
-                             &impl_->number[i]);
+        GEOSSTRtree_insert_r(context(), impl_->tree, impl_->boxes.back().get(), &impl_->number[i]);
     }
 }
 
@@ -284,10 +284,9 @@ std::vector<std::size_t> LineIndex::near(const Vec2d& p, double distance_m) cons
         const Line& line = impl_->lines[i];
         for (std::size_t k = 1; k < line.size(); ++k) {
             const Vec2d e = line[k] - line[k - 1];
-            const double t =
-                e.squaredNorm() > 0
-                    ? std::clamp((p - line[k - 1]).dot(e) / e.squaredNorm(), 0.0, 1.0)
-                    : 0.0;
+            const double t = e.squaredNorm() > 0
+                                 ? std::clamp((p - line[k - 1]).dot(e) / e.squaredNorm(), 0.0, 1.0)
+                                 : 0.0;
             if ((line[k - 1] + e * t - p).norm() <= distance_m) return false;
         }
         return true;

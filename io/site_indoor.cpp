@@ -128,8 +128,7 @@ void build_indoor(const Sorted& in, const SiteOptions& options, Site& site) {
         };
         const auto is_free = [&](double sign) {
             return open(middle + sign * beside_line_m * to_left) ||
-                   (thick && !solid_beside(sign) &&
-                    open(middle + sign * beside_solid_m * to_left));
+                   (thick && !solid_beside(sign) && open(middle + sign * beside_solid_m * to_left));
         };
         wall.free_side[left] = is_free(1);
         wall.free_side[right] = is_free(-1);

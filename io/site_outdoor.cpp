@@ -2,13 +2,6 @@
 #include "io/site_reader.h"
 
 namespace vfplan {
-namespace {
-
-// How far beside a wall's middle its free side is looked for.
-constexpr double beside_m = 0.01;
-
-}  // namespace
-
 // Polygons are solid, the ground around them is free. Lines (fences, free-standing walls) have
 // two free sides, and what of them runs inside a solid is dropped.
 void build_outdoor(const Sorted& in, const SiteOptions& options, Site& site) {
@@ -22,8 +15,7 @@ void build_outdoor(const Sorted& in, const SiteOptions& options, Site& site) {
     edges.add_rings(in.polys(Role::obstacle), WallClass::obstacle);
     edges.add(in.line(Role::wall), WallClass::wall);
     edges.add(in.line(Role::obstacle), WallClass::obstacle);
-    solids.insert(solids.end(), in.polys(Role::obstacle).begin(),
-                  in.polys(Role::obstacle).end());
+    solids.insert(solids.end(), in.polys(Role::obstacle).begin(), in.polys(Role::obstacle).end());
     const std::vector<Polygon> ground = planar::unite(solids, options.snap_m);
     site.area_m2 = planar::area_m2(ground);
 
@@ -32,8 +24,8 @@ void build_outdoor(const Sorted& in, const SiteOptions& options, Site& site) {
     Box box;
     for (Wall& wall : walls) {
         const Vec2d e = (wall.b - wall.a).normalized();
-        const double step = std::min(beside_m, wall.length_m() / 4);
-        const Vec2d to_left = step * Vec2d(-e.y(), e.x());
+        // Nothing else can come nearer than a snap: what lies this close is the wall's own side.
+        const Vec2d to_left = options.snap_m / 4 * Vec2d(-e.y(), e.x());
         const Vec2d middle = (wall.a + wall.b) / 2;
         wall.free_side[left] = !solid.contains(middle + to_left);
         wall.free_side[right] = !solid.contains(middle - to_left);

@@ -135,10 +135,11 @@ SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::str
         throw InputError(fmt::format("{}: {}", name, problem_without_walls(set, options)));
     }
     if (site.free_region.empty()) {
-        throw InputError(fmt::format("{}: nowhere in it can a station stand: the walls enclose no "
-                                     "space wider than {} m; give rooms or an outline, or check "
-                                     "site.unit_m",
-                                     name, 2 * options.stand_radius_m));
+        throw InputError(
+            fmt::format("{}: nowhere in it can a station stand: the walls enclose no "
+                        "space wider than {} m; give rooms or an outline, or check "
+                        "site.unit_m",
+                        name, 2 * options.stand_radius_m));
     }
     return out;
 }

@@ -22,12 +22,12 @@ struct SiteOptions {
     std::string crs;
     double unit_m = 1;
     double snap_m = 0.001;
-    double margin_m = 0;            // free ground around the outermost walls (outdoor)
-    std::vector<double> crop_m;     // empty or x0, y0, x1, y1 in the file's own metres
+    double margin_m = 0;         // free ground around the outermost walls (outdoor)
+    std::vector<double> crop_m;  // empty or x0, y0, x1, y1 in the file's own metres
     bool doors_open = true;
     WindowMode windows = WindowMode::wall;
     InvalidPolygons invalid = InvalidPolygons::error;
-    double stand_radius_m = 0.3;    // indoors: a space is a room when such a circle fits in
+    double stand_radius_m = 0.3;  // indoors: a space is a room when such a circle fits in
 };
 
 struct SiteResult {
@@ -48,7 +48,9 @@ SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::str
 struct Sorted {
     std::array<std::vector<Polygon>, 9> polygons;  // by Role
     std::array<std::vector<Line>, 9> lines;
-    const std::vector<Polygon>& polys(Role r) const { return polygons[static_cast<std::size_t>(r)]; }
+    const std::vector<Polygon>& polys(Role r) const {
+        return polygons[static_cast<std::size_t>(r)];
+    }
     const std::vector<Line>& line(Role r) const { return lines[static_cast<std::size_t>(r)]; }
 };
 
@@ -64,8 +66,7 @@ struct Blocking {
 // Nodes the lines, gives every stretch the class of the line it lies on (wall before window before
 // door before obstacle), joins collinear neighbours of one class, counts what happened.
 // Free sides are left at true.
-std::vector<Wall> walls_from_lines(const Blocking& blocking, double snap_m,
-                                   CleaningCounts& counts);
+std::vector<Wall> walls_from_lines(const Blocking& blocking, double snap_m, CleaningCounts& counts);
 
 void build_outdoor(const Sorted& in, const SiteOptions& options, Site& site);
 void build_indoor(const Sorted& in, const SiteOptions& options, Site& site);

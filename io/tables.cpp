@@ -74,10 +74,10 @@ void write_field(const std::filesystem::path& path, const FieldTable& t) {
     file.write("y", y);
     for (const char* axis : {"x", "y"}) {
         file.attribute(axis, "units", "m");
-        file.attribute(axis, "standard_name",
-                       std::string("projection_") + axis + "_coordinate");
+        file.attribute(axis, "standard_name", std::string("projection_") + axis + "_coordinate");
     }
-    file.write("vf", t.vf_rad, {static_cast<std::uint64_t>(g.ny), static_cast<std::uint64_t>(g.nx)});
+    file.write("vf", t.vf_rad,
+               {static_cast<std::uint64_t>(g.ny), static_cast<std::uint64_t>(g.nx)});
     file.attribute("vf", "long_name", "observed angle");
     file.attribute("vf", "units", "radian");
     file.attribute("vf", "grid_mapping", "crs");
@@ -148,8 +148,7 @@ void write_coverage(const std::filesystem::path& path, const CoverageTables& t) 
     file.group("coverage");
     file.attribute("coverage", "encoding-type", "csr_matrix");
     file.attribute("coverage", "encoding-version", "0.1.0");
-    file.attribute("coverage", "shape",
-                   std::vector<std::int64_t>{t.table.rows(), t.pieces.size()});
+    file.attribute("coverage", "shape", std::vector<std::int64_t>{t.table.rows(), t.pieces.size()});
     file.write("coverage/indptr", t.table.begin);
     file.write("coverage/indices",
                column<std::int32_t>(t.table.seen, [](const Seen& s) { return s.piece; }));
@@ -223,8 +222,7 @@ void write_plan(const std::filesystem::path& path, const PlanTable& t) {
                column<std::int32_t>(s, [](const Station& k) { return k.candidate; }));
     file.write("stations/component",
                column<std::int32_t>(s, [](const Station& k) { return k.network; }));
-    file.write("stations/order",
-               column<std::int32_t>(s, [](const Station& k) { return k.order; }));
+    file.write("stations/order", column<std::int32_t>(s, [](const Station& k) { return k.order; }));
     file.write("stations/new_length_m",
                column<double>(s, [](const Station& k) { return k.new_length_m; }));
     file.write("stations/seen_length_m",

@@ -19,7 +19,7 @@ struct FieldTable {
     Raster<float> vf_rad;  // NaN where no station can stand
     Vec2d origin{0, 0};    // site frame to input coordinates
     std::string crs_wkt;
-    std::string key;       // hash of everything that the table depends on
+    std::string key;  // hash of everything that the table depends on
 };
 
 // coverage.h5: all that planning needs, so that it needs no geometry.
@@ -37,7 +37,7 @@ struct CoverageTables {
 // plan.h5: what was chosen.
 struct PlanTable {
     Plan plan;
-    std::string key;           // of the coverage table that it was made from
+    std::string key;  // of the coverage table that it was made from
     std::string overlap_ratio;
     double threshold = 0;
 };

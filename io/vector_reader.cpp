@@ -60,22 +60,25 @@ Dataset open(const std::filesystem::path& file) {
         CPLSetConfigOption("OSM_USE_CUSTOM_INDEXING", "NO");  // it refuses negative ids
     });
     if (!std::filesystem::exists(file)) {
-        throw IoError(fmt::format("{}: no such file; check site.input (it is relative to the job "
-                                  "file)",
-                                  file.string()));
+        throw IoError(
+            fmt::format("{}: no such file; check site.input (it is relative to the job "
+                        "file)",
+                        file.string()));
     }
     if (std::filesystem::is_regular_file(file) && std::filesystem::file_size(file) == 0) {
-        throw InputError(fmt::format("{}: the file is empty; export the site again", file.string()));
+        throw InputError(
+            fmt::format("{}: the file is empty; export the site again", file.string()));
     }
     std::string name = file.string();
     if (file.extension() == ".gz") name = "/vsigzip/" + name;
-    Dataset set(GDALOpenEx(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr,
-                           nullptr));
+    Dataset set(
+        GDALOpenEx(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
     if (!set) {
         const std::string why = QuietErrors::last();
-        throw InputError(fmt::format("{}: not vector data that can be read{}{}; give GeoJSON, "
-                                     "GeoPackage, Shapefile, OSM or DXF",
-                                     file.string(), why.empty() ? "" : ": ", why));
+        throw InputError(
+            fmt::format("{}: not vector data that can be read{}{}; give GeoJSON, "
+                        "GeoPackage, Shapefile, OSM or DXF",
+                        file.string(), why.empty() ? "" : ": ", why));
     }
     return set;
 }
@@ -225,9 +228,10 @@ bool looks_like_degrees(FeatureSet& set) {
 Srs make_srs(const std::string& definition) {
     Srs srs(OSRNewSpatialReference(nullptr));
     if (OSRSetFromUserInput(srs.get(), definition.c_str()) != OGRERR_NONE) {
-        throw UsageError(fmt::format("site.crs = \"{}\": no coordinate reference system of that "
-                                     "name; give \"utm\" or an EPSG code such as \"EPSG:32617\"",
-                                     definition));
+        throw UsageError(
+            fmt::format("site.crs = \"{}\": no coordinate reference system of that "
+                        "name; give \"utm\" or an EPSG code such as \"EPSG:32617\"",
+                        definition));
     }
     OSRSetAxisMappingStrategy(srs.get(), OAMS_TRADITIONAL_GIS_ORDER);
     return srs;
@@ -253,16 +257,17 @@ void project(FeatureSet& set, OGRSpatialReferenceH from, const std::string& defi
     const Srs to = make_srs(definition);
     const Transform transform(OCTNewCoordinateTransformation(from, to.get()));
     if (!transform) {
-        throw InputError(fmt::format("cannot project the site to {}: {}", definition,
-                                     QuietErrors::last()));
+        throw InputError(
+            fmt::format("cannot project the site to {}: {}", definition, QuietErrors::last()));
     }
     each_point(set, [&](const Feature& f, Vec2d& v) {
         double x = v.x();
         double y = v.y();
         if (OCTTransform(transform.get(), 1, &x, &y, nullptr) == 0 || !std::isfinite(x)) {
-            throw InputError(fmt::format("feature {}: ({}, {}) cannot be projected to {}; choose "
-                                         "another site.crs",
-                                         f.number, v.x(), v.y(), definition));
+            throw InputError(
+                fmt::format("feature {}: ({}, {}) cannot be projected to {}; choose "
+                            "another site.crs",
+                            f.number, v.x(), v.y(), definition));
         }
         v = {x, y};
     });
@@ -284,10 +289,11 @@ void settle_crs(FeatureSet& set, OGRSpatialReferenceH srs, const std::string& dr
     if (!options.crs.empty() || driver == "OSM") {
         const std::string wanted = options.crs.empty() ? "utm" : options.crs;
         if (!source) {
-            throw InputError(fmt::format("{}: site.crs asks for {}, but the file does not say what "
-                                         "its coordinates are; leave site.crs out if they are "
-                                         "metres",
-                                         file.string(), wanted));
+            throw InputError(
+                fmt::format("{}: site.crs asks for {}, but the file does not say what "
+                            "its coordinates are; leave site.crs out if they are "
+                            "metres",
+                            file.string(), wanted));
         }
         if (geographic) {
             project(set, source.get(), wanted == "utm" ? utm_zone_of(set) : wanted);
@@ -303,18 +309,20 @@ void settle_crs(FeatureSet& set, OGRSpatialReferenceH srs, const std::string& dr
         return;
     }
     if (geographic) {
-        throw InputError(fmt::format("{}: coordinates are in degrees, but walls and ranges are in "
-                                     "metres; set site.crs = \"utm\" to have them projected",
-                                     file.string()));
+        throw InputError(
+            fmt::format("{}: coordinates are in degrees, but walls and ranges are in "
+                        "metres; set site.crs = \"utm\" to have them projected",
+                        file.string()));
     }
     if (!source) return;
     if (OSRIsProjected(source.get()) != 0) {
         char* unit = nullptr;
         const double metres = OSRGetLinearUnits(source.get(), &unit);
         if (std::abs(metres - 1) > 1e-6) {
-            throw InputError(fmt::format("{}: coordinates are in {} of {} m, not in metres; set "
-                                         "site.crs = \"utm\" to have them projected",
-                                         file.string(), unit, metres));
+            throw InputError(
+                fmt::format("{}: coordinates are in {} of {} m, not in metres; set "
+                            "site.crs = \"utm\" to have them projected",
+                            file.string(), unit, metres));
         }
         const char* code = OSRGetAuthorityCode(source.get(), nullptr);
         if (code != nullptr && std::string(code) == "3857") {
@@ -377,10 +385,10 @@ FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& o
     }
     each_point(out, [&](const Feature& f, const Vec2d& v) {
         if (std::isfinite(v.x()) && std::isfinite(v.y())) return;
-        throw InputError(fmt::format("{}: feature {}{}{}: a coordinate is no number ({}, {}); "
-                                     "correct or remove the feature",
-                                     file.string(), f.number, f.id.empty() ? "" : ", id ", f.id,
-                                     v.x(), v.y()));
+        throw InputError(
+            fmt::format("{}: feature {}{}{}: a coordinate is no number ({}, {}); "
+                        "correct or remove the feature",
+                        file.string(), f.number, f.id.empty() ? "" : ", id ", f.id, v.x(), v.y()));
     });
     settle_crs(out, srs, driver, options, file);
     return out;

@@ -14,8 +14,8 @@ struct ReadOptions {
     // Empty: the only one, or all of a DXF, or the polygons of OSM data. For DXF: words, parted
     // by commas, of which a layer's name must contain one.
     std::string layer;
-    std::string crs;     // "": as it is; "utm": the zone of the site; else a CRS that PROJ knows
-    double unit_m = 1;   // metres per unit of the file
+    std::string crs;    // "": as it is; "utm": the zone of the site; else a CRS that PROJ knows
+    double unit_m = 1;  // metres per unit of the file
 };
 
 // Reads a whole file into memory, coordinates in metres.

@@ -27,10 +27,10 @@ inline constexpr std::array<std::string_view, 9> candidate_kind_names = {
     "joint", "middle", "ring", "end", "split", "rescue", "link", "required", "existing"};
 
 struct Candidate {
-    Vec2d at{0, 0};            // site frame, metres
-    std::int64_t cell = -1;    // of the grid; -1 for a point that is no cell's centre
+    Vec2d at{0, 0};          // site frame, metres
+    std::int64_t cell = -1;  // of the grid; -1 for a point that is no cell's centre
     CandidateKind kind = CandidateKind::joint;
-    float vf_rad = 0;          // VF there
+    float vf_rad = 0;  // VF there
 };
 
 // How a piece fares, before and after planning.
@@ -41,17 +41,16 @@ enum class PieceStatus : std::uint8_t {
     unreached,       // seen only from networks that cannot be joined to the main one
 };
 
-inline constexpr std::array<std::string_view, 4> piece_status_names = {"covered", "no_viewpoint",
-                                                                       "off_candidates",
-                                                                       "unreached"};
+inline constexpr std::array<std::string_view, 4> piece_status_names = {
+    "covered", "no_viewpoint", "off_candidates", "unreached"};
 
 // A chosen candidate.
 struct Station {
     std::int32_t candidate = -1;
-    std::int32_t network = 0;   // 0 is the main one
-    std::int32_t order = 0;     // in which it was chosen, from 0
-    double new_length_m = 0;    // covered by it and by no station chosen before it
-    double seen_length_m = 0;   // covered by it
+    std::int32_t network = 0;  // 0 is the main one
+    std::int32_t order = 0;    // in which it was chosen, from 0
+    double new_length_m = 0;   // covered by it and by no station chosen before it
+    double seen_length_m = 0;  // covered by it
 };
 
 // Two stations that overlap by at least the threshold. Indices of stations, from < to.

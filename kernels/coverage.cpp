@@ -23,8 +23,8 @@ Pieces cut_into_pieces(const std::vector<Wall>& walls, double partition_m) {
     for (std::size_t w = 0; w < walls.size(); ++w) {
         if (!walls[w].scanned) continue;
         const double length = walls[w].length_m();
-        const auto n = static_cast<std::int32_t>(
-            std::max(1.0, std::ceil(length / partition_m - 1e-9)));
+        const auto n =
+            static_cast<std::int32_t>(std::max(1.0, std::ceil(length / partition_m - 1e-9)));
         for (const Side side : {left, right}) {
             if (!walls[w].free_side[side]) continue;
             out.first_of[2 * w + side] = static_cast<std::int32_t>(out.wall.size());
@@ -63,9 +63,9 @@ CoverageRow coverage_row(const std::vector<Wall>& walls, const Pieces& pieces, c
             const double lo = std::max(from, pieces.s0_m[static_cast<std::size_t>(piece)]);
             const double hi = std::min(to, pieces.s1_m[static_cast<std::size_t>(piece)]);
             if (!(hi > lo)) continue;
-            parts.push_back({piece, hi - lo,
-                             angle_upper_rad(height * (hi - lo),
-                                             height * height + (lo - foot) * (hi - foot))});
+            parts.push_back(
+                {piece, hi - lo,
+                 angle_upper_rad(height * (hi - lo), height * height + (lo - foot) * (hi - foot))});
         }
     }
     std::stable_sort(parts.begin(), parts.end(),
@@ -79,8 +79,7 @@ CoverageRow coverage_row(const std::vector<Wall>& walls, const Pieces& pieces, c
         }
         const double fraction = std::min(1.0, sum.length_m / pieces.length_m(sum.piece));
         if (fraction + 1e-9 < visible_fraction) continue;
-        row.push_back(
-            {sum.piece, static_cast<float>(fraction), static_cast<float>(sum.angle_rad)});
+        row.push_back({sum.piece, static_cast<float>(fraction), static_cast<float>(sum.angle_rad)});
     }
     return row;
 }

@@ -11,9 +11,9 @@ namespace vfplan {
 // Every free side of every wall that has to be scanned, cut into n = max(1, ceil(length /
 // partition_m)) equal pieces, numbered by wall, then side (left first), then from wall.a on.
 struct Pieces {
-    std::vector<std::int32_t> wall;      // of each piece
-    std::vector<std::uint8_t> side;      // Side of each piece
-    std::vector<double> s0_m;            // where it begins and ends along its wall
+    std::vector<std::int32_t> wall;  // of each piece
+    std::vector<std::uint8_t> side;  // Side of each piece
+    std::vector<double> s0_m;        // where it begins and ends along its wall
     std::vector<double> s1_m;
     std::vector<std::int32_t> first_of;  // first piece of wall * 2 + side; -1 where none
     std::vector<std::int32_t> count_of;  // how many pieces that side has

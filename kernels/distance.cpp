@@ -36,7 +36,7 @@ void distance_rows(const Grid& grid, const Raster<std::uint8_t>& domain, std::in
     const std::int32_t nx = grid.nx;
     std::vector<std::int64_t> height(static_cast<std::size_t>(nx) + 2);
     std::vector<std::int32_t> dy(height.size(), 0);
-    std::vector<std::int32_t> apex(height.size());   // column of each parabola of the envelope
+    std::vector<std::int32_t> apex(height.size());    // column of each parabola of the envelope
     std::vector<std::int64_t> begins(height.size());  // first x at which it is the lowest
     for (std::int32_t iy = from; iy < to; ++iy) {
         height.front() = height.back() = 0;
@@ -50,8 +50,8 @@ void distance_rows(const Grid& grid, const Raster<std::uint8_t>& domain, std::in
         };
         // First x at which the parabola of column q is strictly lower than that of p < q.
         const auto overtakes = [&](std::int32_t p, std::int32_t q) {
-            const std::int64_t n = h(q) - h(p) + static_cast<std::int64_t>(q) * q -
-                                   static_cast<std::int64_t>(p) * p;
+            const std::int64_t n =
+                h(q) - h(p) + static_cast<std::int64_t>(q) * q - static_cast<std::int64_t>(p) * p;
             const std::int64_t d = 2 * static_cast<std::int64_t>(q - p);
             return (n >= 0 ? n / d : -((-n + d - 1) / d)) + 1;
         };

@@ -12,7 +12,7 @@ namespace vfplan {
 // Everything beyond the grid is outside. Among equally near cells the one with the smallest
 // column, then row, is taken.
 struct DistanceField {
-    Raster<std::int32_t> squared;   // 0 outside the domain
+    Raster<std::int32_t> squared;  // 0 outside the domain
     Raster<std::int32_t> nearest_dx;
     Raster<std::int32_t> nearest_dy;
 

@@ -1,8 +1,8 @@
 #include "kernels/embree_scene.h"
 
 #include <embree3/rtcore.h>
-#include <xmmintrin.h>
 #include <pmmintrin.h>
+#include <xmmintrin.h>
 
 #include <algorithm>
 #include <array>
@@ -211,9 +211,9 @@ void limit_embree_isa(const std::string& isa) {
 }
 
 int default_rays(double range_max_m, double partition_m) {
-    const double wanted = 2 * pi * range_max_m / (4 * partition_m);
+    const double wanted = 2 * pi * range_max_m / (2.5 * partition_m);
     int rays = 128;
-    while (rays < 1024 && rays < wanted) rays *= 2;
+    while (rays < 512 && rays < wanted) rays *= 2;
     return rays;
 }
 

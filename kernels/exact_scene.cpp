@@ -37,7 +37,8 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 ExactScene::ExactScene(const std::vector<Wall>& walls, const Box& around, double reach_m)
-    : walls_(walls), mesh_(triangulate(walls, around, 10 + 1.5 * around.size().norm())),
+    : walls_(walls),
+      mesh_(triangulate(walls, around, 10 + 1.5 * around.size().norm())),
       reach_m_(reach_m) {
     const auto side = static_cast<std::int32_t>(
         std::max(1.0, std::sqrt(static_cast<double>(mesh_.triangles.size()) / 2)));

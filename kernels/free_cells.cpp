@@ -45,8 +45,8 @@ Raster<std::uint8_t> free_cells(const Grid& grid, const std::vector<Ring>& free_
             const double from = (a.y() - grid.origin.y()) / grid.cell_m - 0.5;
             const double to = (b.y() - grid.origin.y()) / grid.cell_m - 0.5;
             const auto row_from = static_cast<std::int32_t>(std::max(0.0, std::ceil(from)));
-            const auto row_to = static_cast<std::int32_t>(
-                std::min(static_cast<double>(grid.ny), std::ceil(to)));
+            const auto row_to =
+                static_cast<std::int32_t>(std::min(static_cast<double>(grid.ny), std::ceil(to)));
             for (std::int32_t iy = row_from; iy < row_to; ++iy) {
                 const double y = grid.origin.y() + grid.cell_m * (iy + 0.5);
                 const double x = a.x() + (b.x() - a.x()) * ((y - a.y()) / (b.y() - a.y()));
@@ -102,8 +102,7 @@ Raster<std::uint8_t> closed_links(const Grid& grid, const Raster<std::uint8_t>& 
                     if (!grid.inside(x, y)) continue;
                     const auto there = static_cast<std::size_t>(grid.id(x, y));
                     if (free[there] == 0 || (closed[here] >> k & 1U) != 0) continue;
-                    if (segments_meet(wall.a, wall.b,
-                                      grid.centre(static_cast<std::int64_t>(here)),
+                    if (segments_meet(wall.a, wall.b, grid.centre(static_cast<std::int64_t>(here)),
                                       grid.centre(static_cast<std::int64_t>(there)))) {
                         closed[here] = static_cast<std::uint8_t>(closed[here] | 1U << k);
                         closed[there] = static_cast<std::uint8_t>(closed[there] | 1U << (k + 4));

@@ -10,7 +10,8 @@
 namespace vfplan {
 
 // A grid over `extent`. Walls lie on multiples of snap_m; the grid starts a quarter of a snap
-// beside them, so that no cell centre lies on a wall that runs along an axis.
+// beside them, so that for cells of an even number of snaps no centre lies on a wall that runs
+// along an axis.
 Grid make_grid(const Box& extent, double cell_m, double snap_m);
 
 // 1 where the cell's centre lies inside an odd number of rings, else 0.

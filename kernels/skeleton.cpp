@@ -27,10 +27,17 @@ std::array<bool, 256> make_simple_table() {
     return simple;
 }
 
-// The end of a line: one neighbour, or two that touch each other by an edge.
-bool is_end(unsigned bits) {
+// The end of a line: one neighbour, or two that touch each other by an edge. With `corners` also
+// the corner of a block, three neighbours on one side: in a square's corner the cells go in order
+// of row and column, and without this the first corner would go before its branch exists.
+bool is_end(unsigned bits, bool corners) {
     const int count = std::popcount(bits);
     if (count == 1) return true;
+    if (count == 3 && corners) {
+        for (unsigned k = 0; k < 8; k += 2) {
+            if (bits == (1U << k | 1U << (k + 1) | 1U << ((k + 2) % 8))) return true;
+        }
+    }
     if (count != 2) return false;
     for (unsigned k = 0; k < 8; ++k) {
         if (bits == (1U << k | 1U << ((k + 1) % 8))) return true;
@@ -77,26 +84,31 @@ Raster<std::uint8_t> thin(const Grid& grid, const Raster<std::uint8_t>& domain,
     Raster<std::uint8_t> left_over = domain;
     using Entry = std::pair<std::int32_t, std::int64_t>;  // squared distance, cell
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    for (std::int64_t cell = 0; cell < grid.size(); ++cell) {
-        const auto i = static_cast<std::size_t>(cell);
-        if (domain[i] != 0 && neighbourhood(grid, domain, cell) != 255) {
-            queue.emplace(distance.squared[i], cell);
+    // First with corners kept, which leaves some lines two cells wide; then without.
+    for (const bool corners : {true, false}) {
+        for (std::int64_t cell = 0; cell < grid.size(); ++cell) {
+            const auto i = static_cast<std::size_t>(cell);
+            if (left_over[i] != 0 && neighbourhood(grid, left_over, cell) != 255) {
+                queue.emplace(distance.squared[i], cell);
+            }
         }
-    }
-    while (!queue.empty()) {
-        const std::int64_t cell = queue.top().second;
-        queue.pop();
-        const auto i = static_cast<std::size_t>(cell);
-        if (left_over[i] == 0) continue;
-        const unsigned bits = neighbourhood(grid, left_over, cell);
-        if (!simple[bits]) continue;
-        if (is_end(bits) && outward_flux(grid, distance, cell) < flux_of_an_end) continue;
-        left_over[i] = 0;
-        for (std::size_t k = 0; k < 8; ++k) {
-            if ((bits >> k & 1U) == 0) continue;
-            const std::int64_t n =
-                grid.id(grid.ix(cell) + around_dx[k], grid.iy(cell) + around_dy[k]);
-            queue.emplace(distance.squared[static_cast<std::size_t>(n)], n);
+        while (!queue.empty()) {
+            const std::int64_t cell = queue.top().second;
+            queue.pop();
+            const auto i = static_cast<std::size_t>(cell);
+            if (left_over[i] == 0) continue;
+            const unsigned bits = neighbourhood(grid, left_over, cell);
+            if (!simple[bits]) continue;
+            if (is_end(bits, corners) && outward_flux(grid, distance, cell) < flux_of_an_end) {
+                continue;
+            }
+            left_over[i] = 0;
+            for (std::size_t k = 0; k < 8; ++k) {
+                if ((bits >> k & 1U) == 0) continue;
+                const std::int64_t n =
+                    grid.id(grid.ix(cell) + around_dx[k], grid.iy(cell) + around_dy[k]);
+                queue.emplace(distance.squared[static_cast<std::size_t>(n)], n);
+            }
         }
     }
     return left_over;

@@ -6,8 +6,8 @@
 namespace vfplan {
 namespace {
 
-constexpr double past_rad = 1e-9;     // how far beside a wall's end a ray is cast
-constexpr int rounds_most = 48;       // bisection from 2 pi / 16 ends at past_rad long before
+constexpr double past_rad = 1e-9;  // how far beside a wall's end a ray is cast
+constexpr int rounds_most = 48;    // bisection from 2 pi / 16 ends at past_rad long before
 constexpr std::int32_t nothing = -1;
 
 // A ray and what it met. `border` is the point through which the change of wall between this ray
@@ -104,8 +104,8 @@ void emit(const Ends& ends, const std::vector<Node>& nodes, View& out) {
         if (wall != nothing) {
             const Vec2d& from = nodes[(first + n - 1) % n].border;
             const Vec2d& to = nodes[(first + run - 1) % n].border;
-            out.push_back({wall, ends.side(wall), ends.metres_at(wall, from),
-                           ends.metres_at(wall, to), 0});
+            out.push_back(
+                {wall, ends.side(wall), ends.metres_at(wall, from), ends.metres_at(wall, to), 0});
         }
         k += run;
     }
@@ -139,7 +139,7 @@ void follow_transitions(const std::vector<Wall>& walls, const Vec2d& eye,
                 a.border = p.border;
                 continue;
             }
-            rays.push_back(p.kind == Proposal::look_past_end      ? beside(p.border, past_rad)
+            rays.push_back(p.kind == Proposal::look_past_end       ? beside(p.border, past_rad)
                            : p.kind == Proposal::look_before_begin ? beside(p.border, -past_rad)
                                                                    : p.border / p.border.norm());
         }

@@ -11,7 +11,8 @@
 namespace vfplan {
 
 // An unbroken stretch of one wall's side. Seen from the eye it runs counter-clockwise from
-// `s_begin_m` to `s_end_m`, metres along the wall from wall.a (increasing on a left side, decreasing on a right one).
+// `s_begin_m` to `s_end_m`, metres along the wall from wall.a (increasing on a left side,
+// decreasing on a right one).
 struct Span {
     std::int32_t wall = -1;
     Side side = left;

@@ -31,18 +31,19 @@ using Ring = std::vector<Vec2d>;
 
 // What was done to the input, in counts of what it was done to.
 struct CleaningCounts {
-    std::int64_t features = 0;           // features read
-    std::int64_t ignored = 0;            // features of a class or geometry that makes no wall
-    std::int64_t repaired = 0;           // invalid polygons made valid (site.invalid = "repair")
-    std::int64_t dropped_invalid = 0;    // polygons without area, or invalid with site.invalid = "drop"
-    std::int64_t outside_crop = 0;       // features left out by crop_m
-    std::int64_t edges_in = 0;           // edges before cleaning
-    std::int64_t zero_length = 0;        // edges shorter than the snap
-    std::int64_t duplicates = 0;         // edges that lay on another edge
-    std::int64_t split = 0;              // extra edges made where edges cross or touch
-    std::int64_t merged = 0;             // edges joined to a collinear neighbour
-    std::int64_t inside_solids = 0;      // edges dropped because both sides are solid
-    std::int64_t walls = 0;              // walls in the end
+    std::int64_t features = 0;  // features read
+    std::int64_t ignored = 0;   // features of a class or geometry that makes no wall
+    std::int64_t repaired = 0;  // invalid polygons made valid (site.invalid = "repair")
+    std::int64_t dropped_invalid =
+        0;                           // polygons without area, or invalid with site.invalid = "drop"
+    std::int64_t outside_crop = 0;   // features left out by crop_m
+    std::int64_t edges_in = 0;       // edges before cleaning
+    std::int64_t zero_length = 0;    // edges shorter than the snap
+    std::int64_t duplicates = 0;     // edges that lay on another edge
+    std::int64_t split = 0;          // extra edges made where edges cross or touch
+    std::int64_t merged = 0;         // edges joined to a collinear neighbour
+    std::int64_t inside_solids = 0;  // edges dropped because both sides are solid
+    std::int64_t walls = 0;          // walls in the end
 };
 
 // A cleaned site. Coordinates are metres in the site's frame: input coordinates minus `origin`
