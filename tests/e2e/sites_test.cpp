@@ -96,7 +96,7 @@ const auto sites = [](const char* kernel, bool fast) {
         {"house", "plan_house_overland/house_overland.geojson", "office.toml", kernel, false,
          false},
         {"milano", "plans_offices_schools/office_milano_1.geojson", "office.toml", kernel, true,
-         slow},
+         false},
         {"elm", "plans_offices_schools/office_324_elm_furn_plan.geojson", "office.toml", kernel,
          true, slow},
         {"off_2", "plans_offices_schools/office_off_2.geojson", "office.toml", kernel, true, slow},

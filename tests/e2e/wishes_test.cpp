@@ -1,0 +1,138 @@
+// What people ask of a plan beyond the defaults, and of a run that was stopped.
+#include <algorithm>
+
+#include "program.h"
+
+namespace vfplan::test {
+namespace {
+
+class Wishes : public ::testing::Test {
+protected:
+    Words job(const std::string& dir, const std::vector<std::string>& more,
+              const std::string& kernel = "exact") {
+        if (!std::filesystem::exists(scratch / "town.geojson")) generated(scratch, "town");
+        std::vector<std::string> sets = {
+            "site.input=" + scratch / "town.geojson", "site.crop_m=[0,0,400,292]", "field.cell_m=4",
+            "visibility.kernel=" + kernel, "output.formats=['csv','geojson']"};
+        sets.insert(sets.end(), more.begin(), more.end());
+        return with_sets({"run", config_file("town.toml"), "--out", scratch / dir, "--quiet"},
+                         sets);
+    }
+
+    // Places of the stations of a kind; of all for "".
+    std::vector<std::pair<double, double>> places(const std::string& dir, const std::string& kind) {
+        std::vector<std::pair<double, double>> out;
+        const Json all = read_json(scratch / (dir + "/stations.geojson"));
+        for (const Json& f : all["features"]) {
+            const Json& at = f["geometry"]["coordinates"];
+            if (kind.empty() || f["properties"]["kind"] == kind) out.emplace_back(at[0], at[1]);
+        }
+        std::sort(out.begin(), out.end());
+        return out;
+    }
+
+    Scratch scratch;
+};
+
+TEST_F(Wishes, RequiredAndExistingStationsAreInThePlan) {
+    vfplan_expect(
+        0, job("run", {"plan.required=[[313.8,112.2],[20,20]]", "plan.existing=[[100.5,150.5]]"}));
+    using Places = std::vector<std::pair<double, double>>;
+    EXPECT_EQ(places("run", "required"), (Places{{20, 20}, {313.8, 112.2}}));
+    EXPECT_EQ(places("run", "existing"), (Places{{100.5, 150.5}}));
+    EXPECT_EQ(read_json(scratch / "run/summary.json")["networks"], 1);
+    vfplan_expect(0, {"verify", scratch / "run"});
+
+    const Output inside = vfplan_process(job("none", {"plan.required=[[345,5]]"}));
+    EXPECT_EQ(inside.code, 2) << "inside a building";
+    EXPECT_NE(inside.err.find("(345, 5)"), std::string::npos) << inside.err;
+    EXPECT_EQ(vfplan_process(job("none", {"plan.required=[[9999,9999]]"})).code, 2);
+    EXPECT_FALSE(std::filesystem::exists(scratch / "none"));
+}
+
+TEST_F(Wishes, NoStationWhereItIsForbidden) {
+    const auto inside = [](const std::pair<double, double>& p) {
+        return p.first > 100 && p.first < 200 && p.second > 100 && p.second < 200;
+    };
+    vfplan_expect(0, job("free", {}));
+    const auto before = places("free", "");
+    ASSERT_TRUE(std::any_of(before.begin(), before.end(), inside));
+    const std::string file = scratch.write(
+        "garden.geojson",
+        R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":)"
+        R"({"type":"Polygon","coordinates":[[[100,100],[200,100],[200,200],[100,200],[100,100]]]}}]})");
+    vfplan_expect(0, job("run", {"plan.forbidden=" + file}));
+    const auto after = places("run", "");
+    EXPECT_FALSE(after.empty());
+    EXPECT_FALSE(std::any_of(after.begin(), after.end(), inside));
+    vfplan_expect(0, {"verify", scratch / "run"});
+    const Output gone = vfplan_process(job("none", {"plan.forbidden=nowhere.geojson"}));
+    EXPECT_EQ(gone.code, 4);
+    EXPECT_NE(gone.err.find("plan.forbidden"), std::string::npos) << gone.err;
+}
+
+// What tables depend on cannot be changed by planning again, so it is refused, not ignored.
+TEST_F(Wishes, PlanRefusesWhatNeedsTables) {
+    vfplan_expect(0, job("run", {}));
+    const auto bytes = lasting_bytes(scratch / "run");
+    for (const std::string set : {"plan.required=[[20,20]]", "plan.existing=[[20,20]]",
+                                  "plan.forbidden=garden.geojson", "scanner.range_max_m=50"}) {
+        const Output o = vfplan_expect(2, {"plan", scratch / "run", "--set", set, "--quiet"});
+        EXPECT_NE(o.err.find(set.substr(0, set.find('='))), std::string::npos) << o.err;
+    }
+    EXPECT_EQ(lasting_bytes(scratch / "run"), bytes);
+}
+
+// A folder holds one plan: files of the one before do not stay beside the new one.
+TEST_F(Wishes, NoFilesOfThePlanBefore) {
+    vfplan_expect(0, job("run", {}));
+    vfplan_expect(0, {"plan", scratch / "run", "--quiet", "--set", "plan.method=greedy", "--set",
+                      "plan.loops=false", "--set", "output.formats=['csv']"});
+    const std::size_t stations = read_csv(scratch / "run/stations.csv").rows.size();
+    if (std::filesystem::exists(scratch / "run/stations.geojson")) {
+        EXPECT_EQ(places("run", "").size(), stations);
+    }
+}
+
+TEST_F(Wishes, StricterOverlapKeepsTheThreshold) {
+    vfplan_expect(0, job("run", {}));
+    for (const char* ratio : {"min_len", "mean_len", "union_len", "union_ang", "mean_ang"}) {
+        vfplan_expect(0, {"plan", scratch / "run", "--quiet", "--set",
+                          std::string("overlap.ratio=") + ratio, "--set", "overlap.threshold=0.4"});
+        for (const double o : read_csv(scratch / "run/links.csv").numbers("overlap")) {
+            EXPECT_GE(o + 1e-6, 0.4) << ratio;
+        }
+        vfplan_expect(0, {"verify", scratch / "run"});
+        EXPECT_EQ(read_json(scratch / "run/summary.json")["overlap"]["ratio"], ratio);
+    }
+}
+
+class Stopped : public Wishes {};
+
+TEST_F(Stopped, KilledRunsGoOnToTheSameBytes) {
+    vfplan_expect(0, job("whole", {}, "embree"));
+    for (const char* seconds : {"0.05", "0.2", "0.4", "0.6"}) {
+        Words words = {"-s", "KILL", seconds, VFPLAN_BINARY};
+        for (const std::string& w : job("parts", {}, "embree")) words.push_back(w);
+        if (run_program("timeout", words).code == 127) GTEST_SKIP() << "no timeout here";
+    }
+    vfplan_expect(0, job("parts", {}, "embree"));
+    expect_same_bytes(scratch / "whole", scratch / "parts");
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(scratch / "parts")) {
+        EXPECT_EQ(entry.path().filename().string().find("tmp"), std::string::npos) << entry.path();
+    }
+}
+
+// "75 stopped early, resumable": Slurm and Ctrl-C ask politely.
+TEST_F(Stopped, PoliteStopsAreResumable) {
+    for (const char* signal : {"TERM", "INT"}) {
+        Words words = {"--preserve-status", "-s", signal, "0.4", VFPLAN_BINARY};
+        for (const std::string& w : job("run", {"field.cell_m=1"}, "embree")) words.push_back(w);
+        const Output o = run_program("timeout", words);
+        if (o.code == 127) GTEST_SKIP() << "no timeout here";
+        EXPECT_EQ(o.code, 75) << signal << "\n" << o.err;
+    }
+}
+
+}  // namespace
+}  // namespace vfplan::test
