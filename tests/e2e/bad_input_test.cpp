@@ -173,6 +173,18 @@ TEST_F(BadInput, SizesThatDoNotFit) {
     expect(3, {"crop_m"}, good_job, site, {"site.crop_m=[500,500,600,600]"});
 }
 
+// What shows only after the site was read leaves nothing behind either, and once the job is
+// corrected it runs in the same folder.
+TEST_F(BadInput, LateErrorsDoNotSpoilTheFolder) {
+    const std::string site = collection({polygon(square), polygon(far_square)});
+    expect(2, {"field.threshold_rad", "6.2"}, good_job, site, {"field.threshold_rad=6.2"});
+    expect(2, {"plan.required", "(5, 5)"}, good_job, site, {"plan.required=[[5,5]]"});
+    vfplan_process({"run", scratch / "job.toml", "--out", scratch / "again", "--set",
+                    "plan.required=[[5,5]]"});
+    vfplan_expect(0, {"run", scratch / "job.toml", "--out", scratch / "again", "--set",
+                      "plan.required=[[15,5]]"});
+}
+
 TEST_F(BadInput, OutputFolder) {
     scratch.write("site.geojson", collection({polygon(square), polygon(far_square)}));
     const std::string job = scratch.write("job.toml", good_job);
