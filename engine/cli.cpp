@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
 #include "engine/generate.h"
 #include "engine/pipeline.h"
@@ -22,11 +23,13 @@ constexpr const char* run_help =
   1. Write job.toml:        preset = "outdoor"        # or "indoor"
                             [site]
                             input = "my_town.geojson" # metres; polygons are buildings
+                            [field]
+                            cell_m = 2                # indoor: 0.05
   2. vfplan run job.toml --out my_town
   3. Look at my_town/map.png; stations are in my_town/stations.csv.
 
-Try --dry-run first for a large site. Degrees: add crs = "utm" under [site].
-All parameters: docs/parameters.md; any of them: --set field.cell_m=2)";
+Longitudes and latitudes: add crs = "utm" under [site]. How long a large site will take: --dry-run.
+All parameters: docs/parameters.md or vfplan parameters; any of them: --set scanner.range_max_m=40)";
 
 constexpr const char* exit_codes =
     "Exit codes: 0 done; 1 verify said no; 2 usage or configuration; 3 input data; 4 reading or "
@@ -123,7 +126,9 @@ int dispatch(int argc, char** argv) {
     GenerateOptions site;
     std::string site_out;
 
-    CLI::App* run = app.add_subcommand("run", run_help);
+    const bool about_run = argc > 1 && std::string_view(argv[1]) == "run";
+    CLI::App* run = app.add_subcommand(
+        "run", about_run ? run_help : "The whole job: site to stations; start with run --help");
     add_job(*run, s);
     run->footer(exit_codes);
     CLI::App* precompute = app.add_subcommand(

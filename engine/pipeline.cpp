@@ -62,16 +62,18 @@ std::string site_text(const Site& site) {
         c.zero_length, c.duplicates, c.split, c.merged, c.inside_solids);
 }
 
-std::string estimate_text(const Config& config, const Prepared& p) {
-    const Estimate e = estimate(config, p);
+std::string estimate_text(const Config& config, const Prepared& p, const Threads& threads) {
+    const Estimate e = estimate(config, p, threads);
     return fmt::format(
         "cells        {} of {} m, {} of them free\n"
         "pieces       {}\n"
         "candidates   about {}\n"
         "memory       about {:.0f} MB\n"
         "disk         about {:.1f} MB\n"
+        "field        about {:.0f} s with {} threads\n"
         "The job is valid; nothing was written.\n",
-        e.cells, config.field.cell_m, e.free_cells, e.pieces, e.candidates, e.memory_mb, e.disk_mb);
+        e.cells, config.field.cell_m, e.free_cells, e.pieces, e.candidates, e.memory_mb, e.disk_mb,
+        e.field_s, threads.count());
 }
 
 void add_times(Json& j, const Progress& progress) {
@@ -171,7 +173,7 @@ std::string run_job(const Config& config, const JobOptions& options, Progress& p
         progress.note(site_text(prepared.site));
         if (options.dry_run) {
             progress.finish();
-            return estimate_text(config, prepared);
+            return estimate_text(config, prepared, threads);
         }
         dir.begin(config, keys);
         tables = make_tables(config, prepared, keys.tables, threads, progress);

@@ -40,6 +40,28 @@ void forbid(const Config& config, const Site& site, const Grid& grid,
     }
 }
 
+// Processor seconds of a view, from a spread of free cells.
+double seconds_per_view(const Config& config, const Prepared& p) {
+    constexpr std::int64_t sample = 300;
+    const Scanner scanner = scanner_of(config);
+    const auto kernel = make_kernel(config.visibility.kernel, p.site.walls, p.site.extent,
+                                    scanner.range_max_m, rays_of(config));
+    View hits;
+    View seen;
+    std::int64_t views = 0;
+    const Moment begin = Moment::now();
+    for (std::int64_t c = 0; c < p.grid.size();
+         c += std::max<std::int64_t>(1, p.grid.size() / sample)) {
+        if (p.standable[static_cast<std::size_t>(c)] == 0) continue;
+        const Vec2d eye = p.grid.centre(c);
+        kernel->first_hits(eye, hits);
+        observe(p.site.walls, scanner, eye, hits, seen);
+        ++views;
+    }
+    return (Moment::now().cpu_s - begin.cpu_s) /
+           static_cast<double>(std::max<std::int64_t>(1, views));
+}
+
 std::vector<Vec2d> in_site_frame(const std::vector<Vec2d>& points, const Prepared& p,
                                  const char* key, bool must_stand) {
     std::vector<Vec2d> out;
@@ -128,7 +150,7 @@ Prepared prepare(const Config& config, Site site) {
     return p;
 }
 
-Estimate estimate(const Config& config, const Prepared& p) {
+Estimate estimate(const Config& config, const Prepared& p, const Threads& threads) {
     Estimate e;
     e.cells = p.grid.size();
     e.free_cells = std::count(p.standable.begin(), p.standable.end(), 1);
@@ -145,6 +167,7 @@ Estimate estimate(const Config& config, const Prepared& p) {
         (static_cast<double>(e.free_cells) * 3 + entries * 5 + static_cast<double>(e.pieces) * 80) /
             1e6 +
         1;
+    e.field_s = seconds_per_view(config, p) * static_cast<double>(e.free_cells) / threads.count();
     return e;
 }
 

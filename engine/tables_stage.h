@@ -36,8 +36,9 @@ struct Estimate {
     std::int64_t candidates = 0;  // order of magnitude
     double memory_mb = 0;
     double disk_mb = 0;
+    double field_s = 0;           // from a sample of views on this machine
 };
-Estimate estimate(const Config& config, const Prepared& prepared);
+Estimate estimate(const Config& config, const Prepared& prepared, const Threads& threads);
 
 struct Tables {
     FieldTable field;
