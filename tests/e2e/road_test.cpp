@@ -1,9 +1,7 @@
 // From a generated site to a verified plan, over every command of the road.
+#include <algorithm>
 #include <cmath>
-#include <functional>
 
-#include "../data.h"
-#include "io/tables.h"
 #include "program.h"
 
 namespace vfplan::test {

@@ -1,4 +1,5 @@
 // Real sites at the settings they are planned with: every plan verified, every piece accounted for.
+// VFPLAN_TEST_SLOW=1 adds the slow ones.
 #include "program.h"
 
 namespace vfplan::test {
