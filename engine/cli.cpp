@@ -9,6 +9,7 @@
 
 #include "engine/generate.h"
 #include "engine/pipeline.h"
+#include "engine/stop.h"
 #include "io/files.h"
 #include "kernels/embree_scene.h"
 #include "kernels/error.h"
@@ -113,6 +114,7 @@ int verify(const Shared& s) {
 }
 
 int dispatch(int argc, char** argv) {
+    watch_signals();
     if (const char* isa = std::getenv("VFPLAN_EMBREE_ISA")) limit_embree_isa(isa);
     CLI::App app{
         "Plans connected networks of static-LiDAR stations from city maps and floor "

@@ -19,25 +19,42 @@
 namespace vfplan {
 namespace {
 
-// TBB is not built for the thread sanitizer: tell it that what precedes a loop happens before the
-// loop's bodies, and these before what follows the loop, even when one throws. The marks are static
-// because to read a captured variable is an access already.
+// TBB is not built for the thread sanitizer, which is therefore told that what precedes a loop
+// happens before its parts, and these before what follows the loop. Without it these do nothing.
+[[maybe_unused]] char loop_begun;
+[[maybe_unused]] char part_done;
 #ifdef __SANITIZE_THREAD__
-char loop_begins;
-char loop_ends;
-void mark_loop() { __tsan_release(&loop_begins); }
-struct BodyMarks {
-    BodyMarks() { __tsan_acquire(&loop_begins); }
-    ~BodyMarks() { __tsan_release(&loop_ends); }
-};
-struct LoopEndMark {
-    ~LoopEndMark() { __tsan_acquire(&loop_ends); }
-};
+void release(char& mark) { __tsan_release(&mark); }
+void acquire(char& mark) { __tsan_acquire(&mark); }
 #else
-void mark_loop() {}
-struct BodyMarks {};
-struct LoopEndMark {};
+void release(char&) {}
+void acquire(char&) {}
 #endif
+struct PartEnds {
+    ~PartEnds() { release(part_done); }
+};
+struct LoopEnds {
+    ~LoopEnds() { acquire(part_done); }
+};
+
+// What TBB copies when it splits a loop, and hands from thread to thread.
+class Part {
+public:
+    using Body = std::function<void(std::int64_t, std::int64_t)>;
+
+    explicit Part(const Body& body) : body_(&body) { release(loop_begun); }
+    Part(const Part& other) : body_((acquire(loop_begun), other.body_)) { release(loop_begun); }
+    Part& operator=(const Part&) = delete;
+
+    void operator()(const tbb::blocked_range<std::int64_t>& r) const {
+        acquire(loop_begun);
+        const PartEnds when_left;  // by an exception too
+        (*body_)(r.begin(), r.end());
+    }
+
+private:
+    const Body* body_;
+};
 
 int slurm_threads() {
     const char* text = std::getenv("SLURM_CPUS_PER_TASK");
@@ -85,12 +102,8 @@ Threads::~Threads() = default;
 
 void Threads::for_each(std::int64_t n, std::int64_t grain,
                        const std::function<void(std::int64_t, std::int64_t)>& body) const {
-    const auto part = [&body](const tbb::blocked_range<std::int64_t>& r) {
-        [[maybe_unused]] const BodyMarks marks;
-        body(r.begin(), r.end());
-    };
-    mark_loop();
-    [[maybe_unused]] const LoopEndMark end;
+    const Part part(body);
+    const LoopEnds when_left;
     impl_->arena.execute([&] {
         tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, n, static_cast<std::size_t>(grain)),
                           part);

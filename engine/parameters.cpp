@@ -117,7 +117,7 @@ std::vector<std::pair<Parameter, ParameterValue>> parameters(Config& c) {
 
         {{"visibility",
           "kernel",
-          "embree: packets of rays, wall ends found analytically; exact: "
+          "of the field. embree: packets of rays, wall ends found analytically; exact: "
           "triangular expansion",
           tables,
           {"embree", "exact"}},

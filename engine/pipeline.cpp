@@ -129,11 +129,10 @@ Json read_summary(const RunDir& dir) {
 
 // Plans, writes everything that depends on the plan, and summary.json last of all.
 std::string finish_plan(const RunDir& dir, const Config& config, const FieldTable& field,
-                        CoverageTables& tables, bool confirm, Json summary, const Threads& threads,
+                        const CoverageTables& tables, Json summary, const Threads& threads,
                         Progress& progress) {
-    const Planned planned = plan_tables(config, tables, confirm, threads, progress);
+    const Planned planned = plan_tables(config, tables, threads, progress);
     progress.stage("files");
-    if (planned.rows_corrected > 0) write_coverage(dir.file("coverage.h5"), tables);
     write_plan_files(dir, config, field, tables, planned);
     summary.update(summary_of(planned, tables));
     summary["kernel"] = config.visibility.kernel;
@@ -175,9 +174,16 @@ std::string run_job(const Config& config, const JobOptions& options, Progress& p
             progress.finish();
             return estimate_text(config, prepared, threads);
         }
-        dir.begin(config, keys);
+        ClaimedFolder folder(dir.path());
         tables = make_tables(config, prepared, keys.tables, threads, progress);
         progress.stage("tables");
+        // From here on the folder is this job's; what an older run left must not stand beside it.
+        std::error_code ignored;
+        for (const char* old : {"summary.json", "plan.h5"}) {
+            std::filesystem::remove(dir.file(old), ignored);
+        }
+        dir.write_job(config, keys);
+        folder.keep();
         write_field(dir.file("field.h5"), tables.field);
         write_coverage(dir.file("coverage.h5"), tables.coverage);
         summary["site"] = site_summary(prepared.site);
@@ -189,9 +195,8 @@ std::string run_job(const Config& config, const JobOptions& options, Progress& p
     }
     std::string text;
     if (options.plan) {
-        text =
-            finish_plan(dir, config, tables.field, tables.coverage,
-                        config.visibility.kernel != "exact", std::move(summary), threads, progress);
+        text = finish_plan(dir, config, tables.field, tables.coverage, std::move(summary), threads,
+                           progress);
     } else {
         progress.finish();
         summary["candidates"] = tables.coverage.candidates.size();
@@ -209,14 +214,17 @@ std::string run_job(const Config& config, const JobOptions& options, Progress& p
 
 std::string plan_again(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                        int thread_count, Progress& progress) {
+    Config any;
     for (const std::string& s : overrides) {
-        if (s.rfind("plan.", 0) == 0 || s.rfind("overlap.", 0) == 0 || s.rfind("output.", 0) == 0) {
-            continue;
+        const std::string key = s.substr(0, s.find('='));
+        for (const auto& entry : parameters(any)) {
+            const Parameter& p = entry.first;
+            if (p.key() != key || p.stage != Stage::tables || p.section == "overlap") continue;
+            throw UsageError(
+                fmt::format("--set {}: plan works from finished tables, and {} changes "
+                            "those; use run with another --out",
+                            s, key));
         }
-        throw UsageError(
-            fmt::format("--set {}: plan works from finished tables, so only plan.*, "
-                        "overlap.* and output.* can be set; use run for the rest",
-                        s));
     }
     const Threads threads(thread_count);
     const RunDir dir(path);
@@ -224,8 +232,8 @@ std::string plan_again(const std::filesystem::path& path, const std::vector<std:
     const Config config = read_config(dir.file("job.toml"), overrides);
     progress.stage("read");
     const FieldTable field = read_field(dir.file("field.h5"));
-    CoverageTables tables = read_coverage(dir.file("coverage.h5"));
-    return finish_plan(dir, config, field, tables, false, read_summary(dir), threads, progress);
+    const CoverageTables tables = read_coverage(dir.file("coverage.h5"));
+    return finish_plan(dir, config, field, tables, read_summary(dir), threads, progress);
 }
 
 }  // namespace vfplan

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "engine/tables_stage.h"
-#include "engine/viewer.h"
 #include "io/exports.h"
 #include "io/files.h"
 #include "io/map_png.h"
@@ -14,45 +13,6 @@
 
 namespace vfplan {
 namespace {
-
-bool same_pieces(const CoverageTable& table, std::int32_t row, const CoverageRow& other) {
-    return std::equal(table.row_begin(row), table.row_end(row), other.begin(), other.end(),
-                      [](const Seen& a, const Seen& b) { return a.piece == b.piece; });
-}
-
-// Puts rows in the place of others; pieces that no row covers any more lose their reach.
-void replace_rows(CoverageTables& t,
-                  const std::vector<std::pair<std::int32_t, CoverageRow>>& rows) {
-    CoverageTable table;
-    std::size_t next = 0;
-    for (std::int32_t r = 0; r < t.table.rows(); ++r) {
-        if (next < rows.size() && rows[next].first == r) {
-            table.add(rows[next++].second);
-        } else {
-            table.add({t.table.row_begin(r), t.table.row_end(r)});
-        }
-    }
-    t.table = std::move(table);
-    std::vector<std::uint8_t> covered(t.reach.size(), 0);
-    for (const Seen& s : t.table.seen) covered[static_cast<std::size_t>(s.piece)] = 1;
-    for (std::size_t p = 0; p < covered.size(); ++p) {
-        if (covered[p] != 0) {
-            t.reach[p] = PieceStatus::covered;
-        } else if (t.reach[p] == PieceStatus::covered) {
-            t.reach[p] = PieceStatus::off_candidates;
-        }
-    }
-}
-
-Box extent_of(const CoverageTables& t) {
-    Box box;
-    for (const Wall& w : t.walls) {
-        box.add(w.a);
-        box.add(w.b);
-    }
-    for (const Candidate& c : t.candidates) box.add(c.at);
-    return box;
-}
 
 bool wants(const Config& config, const char* format) {
     const auto& f = config.output.formats;
@@ -97,49 +57,19 @@ PlanOptions plan_options(const Config& c) {
     return {c.plan.method, c.plan.loops, ratio_of(c.overlap.ratio), c.overlap.threshold};
 }
 
-Planned plan_tables(const Config& config, CoverageTables& t, bool confirm, const Threads& threads,
+Planned plan_tables(const Config& config, const CoverageTables& t, const Threads& threads,
                     Progress& progress) {
-    constexpr int rounds_most = 20;
     const PlanOptions options = plan_options(config);
     Planned out;
-    std::unique_ptr<ViewKernel> exact;
-    for (int round = 0;; ++round) {
-        progress.stage("overlap");
-        const Graph graph =
-            overlap_graph(threads, t.pieces, t.table, options.ratio, options.threshold);
-        const PlanInput input{t.candidates, t.pieces, t.reach, t.table, graph};
-        progress.stage("plan");
-        out.plan = make_plan(input, options, out.report);
-        std::vector<std::pair<std::int32_t, CoverageRow>> corrected;
-        if (confirm && round < rounds_most) {
-            progress.stage("confirm");
-            if (!exact) {
-                exact = make_kernel("exact", t.walls, extent_of(t), config.scanner.range_max_m, 0);
-            }
-            const Viewer viewer(*exact, t.walls, t.pieces, scanner_of(config),
-                                config.coverage.visible_fraction);
-            std::vector<Vec2d> eyes;
-            for (const Station& s : out.plan.stations) {
-                eyes.push_back(t.candidates[static_cast<std::size_t>(s.candidate)].at);
-            }
-            std::vector<CoverageRow> rows = viewer.rows(threads, eyes);
-            for (std::size_t i = 0; i < rows.size(); ++i) {
-                const std::int32_t c = out.plan.stations[i].candidate;
-                if (!same_pieces(t.table, c, rows[i]))
-                    corrected.emplace_back(c, std::move(rows[i]));
-            }
-            std::sort(corrected.begin(), corrected.end(),
-                      [](const auto& a, const auto& b) { return a.first < b.first; });
-        }
-        if (corrected.empty()) {
-            progress.stage("metrics");
-            out.metrics = measure(threads, input, out.plan, t.walls, config.scanner.range_max_m);
-            out.joining = find_joining(threads, input, options, out.plan);
-            return out;
-        }
-        out.rows_corrected += static_cast<std::int64_t>(corrected.size());
-        replace_rows(t, corrected);
-    }
+    progress.stage("overlap");
+    const Graph graph = overlap_graph(threads, t.pieces, t.table, options.ratio, options.threshold);
+    const PlanInput input{t.candidates, t.pieces, t.reach, t.table, graph};
+    progress.stage("plan");
+    out.plan = make_plan(input, options, out.report);
+    progress.stage("metrics");
+    out.metrics = measure(threads, input, out.plan, t.walls, config.scanner.range_max_m);
+    out.joining = find_joining(threads, input, options, out.plan);
+    return out;
 }
 
 std::string result_hash(const FieldTable& field, const CoverageTables& t, const Plan& plan) {
@@ -202,8 +132,7 @@ nlohmann::ordered_json summary_of(const Planned& p, const CoverageTables& t) {
                  {"stations_before_loops", p.report.before_loops},
                  {"stations_after_loops", p.plan.stations.size()},
                  {"off_cycle_before_loops", p.report.loose_before},
-                 {"off_cycle_after_loops", p.report.loose_after},
-                 {"rows_corrected", p.rows_corrected}};
+                 {"off_cycle_after_loops", p.report.loose_after}};
     j["histograms"] = {{"stations_per_piece", m.multiplicity},
                        {"range_by_tenth_of_max", m.range_tenths},
                        {"incidence_by_10_deg", m.incidence_tens}};
@@ -229,18 +158,22 @@ void write_plan_files(const RunDir& dir, const Config& config, const FieldTable&
                       const CoverageTables& t, const Planned& p) {
     write_plan(dir.file("plan.h5"),
                {p.plan, t.key, config.overlap.ratio, config.overlap.threshold});
-    if (wants(config, "csv")) {
-        write_text(dir.file("stations.csv"), stations_csv(t, p.plan));
-        write_text(dir.file("links.csv"), links_csv(p.plan));
-        write_text(dir.file("pieces.csv"), pieces_csv(t, p.plan));
-    }
-    if (wants(config, "geojson")) {
-        write_text(dir.file("stations.geojson"), stations_geojson(t, p.plan));
-    }
-    if (wants(config, "png")) {
-        write_text(dir.file("map.png"),
-                   map_png(map_of(config, field, t, p), static_cast<int>(config.output.map_px)));
-    }
+    // What is not asked for does not stay from a plan before.
+    const auto put = [&](const char* format, const char* name, const auto& text) {
+        if (wants(config, format)) {
+            write_text(dir.file(name), text());
+        } else {
+            std::error_code ignored;
+            std::filesystem::remove(dir.file(name), ignored);
+        }
+    };
+    put("csv", "stations.csv", [&] { return stations_csv(t, p.plan); });
+    put("csv", "links.csv", [&] { return links_csv(p.plan); });
+    put("csv", "pieces.csv", [&] { return pieces_csv(t, p.plan); });
+    put("geojson", "stations.geojson", [&] { return stations_geojson(t, p.plan); });
+    put("png", "map.png", [&] {
+        return map_png(map_of(config, field, t, p), static_cast<int>(config.output.map_px));
+    });
 }
 
 namespace {

@@ -1,4 +1,4 @@
-// From the coverage tables to a plan that the exact kernel agrees with, and all files of it.
+// From the coverage tables to a plan, and all files of it.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -18,15 +18,12 @@ struct Planned {
     PlanReport report;
     Metrics metrics;
     Joining joining;
-    std::int64_t rows_corrected = 0;  // stations whose row the exact kernel saw otherwise
 };
 
 PlanOptions plan_options(const Config& config);
 
-// Plans; with `confirm`, looks from each station with the exact kernel too, puts its row in the
-// table where the two differ, and plans again until they agree.
-Planned plan_tables(const Config& config, CoverageTables& tables, bool confirm,
-                    const Threads& threads, Progress& progress);
+Planned plan_tables(const Config& config, const CoverageTables& tables, const Threads& threads,
+                    Progress& progress);
 
 // Hash of all that must not depend on threads, ranks, tiles or machine.
 std::string result_hash(const FieldTable& field, const CoverageTables& tables, const Plan& plan);

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <ctime>
 
+#include "engine/stop.h"
+
 namespace vfplan {
 namespace {
 
@@ -32,6 +34,7 @@ Progress::Progress(bool quiet)
       stage_begin_(begin_) {}
 
 void Progress::stage(const std::string& name, std::int64_t total) {
+    stop_if_asked();
     finish();
     name_ = name;
     total_ = total;
@@ -42,6 +45,7 @@ void Progress::stage(const std::string& name, std::int64_t total) {
 }
 
 void Progress::advance(std::int64_t steps) {
+    stop_if_asked();
     const std::int64_t done = done_ += steps;
     if (quiet_ || total_ == 0) return;
     const std::unique_lock lock(showing_, std::try_to_lock);

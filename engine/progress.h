@@ -24,7 +24,8 @@ struct StageTime {
     double cpu_s = 0;
 };
 
-// Standard error only. advance() may be called from any thread, the rest from one.
+// Standard error only. advance() may be called from any thread, the rest from one. stage() and
+// advance() throw Stopped when a signal asked for an end.
 class Progress {
 public:
     explicit Progress(bool quiet);

@@ -51,18 +51,44 @@ void RunDir::check(const JobKeys& keys, bool fresh) const {
     if (stored == keys.job || fresh) return;
     throw UsageError(
         fmt::format("{}: holds the run of another job (its hash {}, this job's {}); "
-                    "choose another --out, or --fresh to replace it",
+                    "choose another --out, or --fresh to replace it (for another plan from the "
+                    "same tables: vfplan plan)",
                     path_.string(), stored.substr(0, 16), keys.job.substr(0, 16)));
 }
 
-void RunDir::begin(const Config& config, const JobKeys& keys) const {
-    std::error_code error;
-    std::filesystem::create_directories(path_, error);
-    if (error) {
-        throw IoError(fmt::format("{}: cannot be created: {}; choose another --out", path_.string(),
-                                  error.message()));
-    }
+void RunDir::write_job(const Config& config, const JobKeys& keys) const {
     write_text(file("job.toml"), fmt::format("{}{}\n{}", key_label, keys.job, to_toml(config)));
+}
+
+ClaimedFolder::ClaimedFolder(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::filesystem::path whole = std::filesystem::absolute(path).lexically_normal();
+    std::filesystem::path part;
+    for (const std::filesystem::path& name : whole) {
+        part /= name;
+        if (std::filesystem::exists(part, error)) continue;
+        if (!std::filesystem::create_directory(part, error) || error) break;
+        created_.push_back(part);
+    }
+    if (!std::filesystem::is_directory(whole, error)) {
+        const ClaimedFolder undo(std::move(created_));
+        throw IoError(
+            fmt::format("{}: the folder cannot be created; choose another --out", path.string()));
+    }
+    try {
+        write_text(whole / "writable", "");
+        std::filesystem::remove(whole / "writable", error);
+    } catch (const IoError&) {
+        const ClaimedFolder undo(std::move(created_));
+        throw;
+    }
+}
+
+ClaimedFolder::~ClaimedFolder() {
+    std::error_code ignored;
+    for (auto p = created_.rbegin(); p != created_.rend(); ++p) {
+        std::filesystem::remove(*p, ignored);  // only while empty
+    }
 }
 
 Config RunDir::config() const {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "engine/config.h"
 
@@ -28,8 +29,8 @@ public:
     // hashes; reads only. `fresh`: another job's run may be replaced.
     void check(const JobKeys& keys, bool fresh) const;
 
-    // Creates the folder and writes job.toml. Throws IoError.
-    void begin(const Config& config, const JobKeys& keys) const;
+    // Writes job.toml. Throws IoError.
+    void write_job(const Config& config, const JobKeys& keys) const;
 
     // The configuration of a finished precompute or run. Throws IoError when it is none.
     Config config() const;
@@ -37,6 +38,23 @@ public:
 private:
     std::string stored_key() const;
     std::filesystem::path path_;
+};
+
+// Holds a run directory that may have to be created, so that hours of work are not begun for a
+// folder that cannot be written. Folders that it created go again, unless keep() was called.
+class ClaimedFolder {
+public:
+    // Throws IoError when the folder cannot be created or written.
+    explicit ClaimedFolder(const std::filesystem::path& path);
+    ~ClaimedFolder();
+    ClaimedFolder(const ClaimedFolder&) = delete;
+    ClaimedFolder& operator=(const ClaimedFolder&) = delete;
+    void keep() { created_.clear(); }
+
+private:
+    explicit ClaimedFolder(std::vector<std::filesystem::path> created)
+        : created_(std::move(created)) {}
+    std::vector<std::filesystem::path> created_;  // outermost first
 };
 
 }  // namespace vfplan

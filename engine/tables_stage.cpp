@@ -147,6 +147,8 @@ Prepared prepare(const Config& config, Site site) {
                         "choose a smaller cell",
                         cell));
     }
+    p.required = in_site_frame(config.plan.required, p, "plan.required", true);
+    p.existing = in_site_frame(config.plan.existing, p, "plan.existing", false);
     return p;
 }
 
@@ -175,25 +177,29 @@ Tables make_tables(const Config& config, const Prepared& p, const std::string& k
                    const Threads& threads, Progress& progress) {
     Tables out;
     const Scanner scanner = scanner_of(config);
-    const std::vector<Vec2d> required =
-        in_site_frame(config.plan.required, p, "plan.required", true);
-    const std::vector<Vec2d> existing =
-        in_site_frame(config.plan.existing, p, "plan.existing", false);
-
     progress.stage("scene");
-    std::unique_ptr<ViewKernel> kernel;
-    threads.run([&] {
-        kernel = make_kernel(config.visibility.kernel, p.site.walls, p.site.extent,
-                             scanner.range_max_m, rays_of(config));
-    });
     CoverageTables& c = out.coverage;
     c.walls = p.site.walls;
     c.pieces = cut_into_pieces(p.site.walls, config.coverage.partition_m);
-    const Viewer viewer(*kernel, p.site.walls, c.pieces, scanner, config.coverage.visible_fraction);
+    // The field has millions of views and may come from rays. The few thousand views of candidates
+    // carry what a plan promises, so they are always exact.
+    std::unique_ptr<ViewKernel> of_field;
+    std::unique_ptr<ViewKernel> exact;
+    threads.run([&] {
+        exact = make_kernel("exact", p.site.walls, p.site.extent, scanner.range_max_m, 0);
+        if (config.visibility.kernel != "exact") {
+            of_field = make_kernel(config.visibility.kernel, p.site.walls, p.site.extent,
+                                   scanner.range_max_m, rays_of(config));
+        }
+    });
+    const double fraction = config.coverage.visible_fraction;
+    const Viewer viewer(*exact, p.site.walls, c.pieces, scanner, fraction);
+    const Viewer field_viewer(of_field ? *of_field : *exact, p.site.walls, c.pieces, scanner,
+                              fraction);
 
     progress.stage("field", p.grid.size());
     out.field = {p.grid,
-                 visibility_field(viewer, threads, p.grid, p.standable,
+                 visibility_field(field_viewer, threads, p.grid, p.standable,
                                   [&](std::int64_t n) { progress.advance(n); }),
                  p.site.origin, p.site.crs_wkt, key};
 
@@ -217,7 +223,8 @@ Tables make_tables(const Config& config, const Prepared& p, const std::string& k
     Raster<std::uint8_t> skeleton = thin(p.grid, domain, distance);
     prune_spurs(p.grid, distance, skeleton);
     const RidgeGraph ridges = ridge_graph(p.grid, skeleton);
-    if (ridges.joints.empty() && ridges.ridges.empty() && required.empty() && existing.empty()) {
+    if (ridges.joints.empty() && ridges.ridges.empty() && p.required.empty() &&
+        p.existing.empty()) {
         throw UsageError(fmt::format(
             "field.threshold_rad = {}: no cell sees that much wall between range_min_m = {} and "
             "range_max_m = {}; lower the threshold or raise range_max_m",
@@ -228,8 +235,8 @@ Tables make_tables(const Config& config, const Prepared& p, const std::string& k
     CandidateOptions options;
     options.ratio = ratio_of(config.overlap.ratio);
     options.threshold = config.overlap.threshold;
-    options.required = required;
-    options.existing = existing;
+    options.required = p.required;
+    options.existing = p.existing;
     CandidateResult found = find_candidates(viewer, threads, ground, ridges, options,
                                             [&](const char* phase) { progress.stage(phase); });
     c.reach = std::move(found.reach);

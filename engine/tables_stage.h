@@ -23,9 +23,12 @@ struct Prepared {
     Site site;
     Grid grid;
     Raster<std::uint8_t> standable;  // free and not forbidden
+    std::vector<Vec2d> required;     // plan.required and plan.existing in the site frame
+    std::vector<Vec2d> existing;
 };
 
-// Throws UsageError when the cells do not fit the site or the memory.
+// Throws UsageError when the cells do not fit the site or the memory, or a point of the user lies
+// where no station can stand.
 Prepared prepare(const Config& config, Site site);
 
 // What a job will take, for --dry-run.
@@ -36,7 +39,7 @@ struct Estimate {
     std::int64_t candidates = 0;  // order of magnitude
     double memory_mb = 0;
     double disk_mb = 0;
-    double field_s = 0;           // from a sample of views on this machine
+    double field_s = 0;  // from a sample of views on this machine
 };
 Estimate estimate(const Config& config, const Prepared& prepared, const Threads& threads);
 

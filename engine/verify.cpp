@@ -9,6 +9,7 @@
 #include "engine/tables_stage.h"
 #include "engine/viewer.h"
 #include "io/tables.h"
+#include "kernels/error.h"
 
 namespace vfplan {
 namespace {
@@ -191,6 +192,24 @@ void check_bound(const CoverageTables& t, const Plan& plan, Checks& checks) {
                            plan.bound_pieces.size(), plan.bound_pieces.size()));
 }
 
+// True when every number in the plan points into the tables.
+bool fits(const CoverageTables& t, const Plan& plan) {
+    const auto below = [](std::int64_t i, std::size_t end) {
+        return i >= 0 && static_cast<std::size_t>(i) < end;
+    };
+    bool good = plan.pieces.size() == at(t.pieces.size());
+    for (const Station& s : plan.stations) {
+        good = good && below(s.candidate, t.candidates.size()) &&
+               below(s.network, plan.stations.size());
+    }
+    for (const Link& l : plan.links) {
+        good = good && below(l.from, plan.stations.size()) && below(l.to, plan.stations.size());
+    }
+    for (const std::int32_t p : plan.bound_pieces) good = good && below(p, plan.pieces.size());
+    for (const PieceStatus s : plan.pieces) good = good && below(static_cast<int>(s), 4);
+    return good;
+}
+
 }  // namespace
 
 VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Progress& progress) {
@@ -200,7 +219,16 @@ VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Pro
     progress.stage("read");
     const FieldTable field = read_field(dir.file("field.h5"));
     const CoverageTables t = read_coverage(dir.file("coverage.h5"));
+    if (!std::filesystem::exists(dir.file("plan.h5"))) {
+        throw IoError(fmt::format("{}: tables, but no plan yet; make one with vfplan plan {}",
+                                  path.string(), path.string()));
+    }
     const PlanTable table = read_plan(dir.file("plan.h5"));
+    Checks checks;
+    checks.add(table.key == t.key && field.key == t.key,
+               "field, coverage and plan belong to one job");
+    checks.add(fits(t, table.plan), "the plan's numbers point into its tables");
+    if (!checks.result().good) return checks.result();
     progress.stage("look again");
     Box box{field.grid.origin,
             field.grid.origin + field.grid.cell_m * Vec2d(field.grid.nx, field.grid.ny)};
@@ -213,9 +241,6 @@ VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Pro
     for (const Station& s : table.plan.stations) eyes.push_back(t.candidates[at(s.candidate)].at);
     const std::vector<CoverageRow> rows = viewer.rows(threads, eyes);
 
-    Checks checks;
-    checks.add(table.key == t.key && field.key == t.key,
-               "field, coverage and plan belong to one job");
     check_coverage(t, table.plan, rows, checks);
     check_connection(t, table, rows, checks);
     check_field(viewer, threads, field, t, table.plan, config.visibility.kernel, checks);

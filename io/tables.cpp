@@ -28,6 +28,8 @@ void write_codes(h5::Writer& file, const std::string& name, const std::vector<E>
     file.attribute(name, "meaning", meaning);
 }
 
+constexpr const char* frame = "m, site frame: input coordinates minus the origin in crs";
+
 void write_header(h5::Writer& file, const std::string& title, const std::string& key) {
     file.attribute("/", "title", title);
     file.attribute("/", "format_version", std::int64_t{1});
@@ -123,7 +125,7 @@ void write_coverage(const std::filesystem::path& path, const CoverageTables& t) 
                column<std::uint8_t>(t.walls, [](const Wall& w) { return w.free_side[left]; }));
     file.write("walls/free_right",
                column<std::uint8_t>(t.walls, [](const Wall& w) { return w.free_side[right]; }));
-    file.attribute("walls", "units", "m, site frame: input coordinates minus the origin in crs");
+    file.attribute("walls", "units", frame);
 
     file.group("pieces");
     file.write("pieces/wall", t.pieces.wall);
@@ -135,6 +137,7 @@ void write_coverage(const std::filesystem::path& path, const CoverageTables& t) 
     write_codes(file, "pieces/reach", t.reach, piece_status_names);
 
     file.group("candidates");
+    file.attribute("candidates", "units", frame);
     const auto& c = t.candidates;
     file.write("candidates/x", column<double>(c, [](const Candidate& k) { return k.at.x(); }));
     file.write("candidates/y", column<double>(c, [](const Candidate& k) { return k.at.y(); }));

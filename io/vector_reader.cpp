@@ -384,11 +384,14 @@ FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& o
                                      file.string(), QuietErrors::last()));
     }
     each_point(out, [&](const Feature& f, const Vec2d& v) {
-        if (std::isfinite(v.x()) && std::isfinite(v.y())) return;
+        constexpr double farthest_m = 1e8;  // beyond any map of the earth
+        const bool number = std::isfinite(v.x()) && std::isfinite(v.y());
+        if (number && v.cwiseAbs().maxCoeff() < farthest_m) return;
         throw InputError(
-            fmt::format("{}: feature {}{}{}: a coordinate is no number ({}, {}); "
-                        "correct or remove the feature",
-                        file.string(), f.number, f.id.empty() ? "" : ", id ", f.id, v.x(), v.y()));
+            fmt::format("{}: feature {}{}{}: a coordinate is no {} ({}, {}); correct or "
+                        "remove the feature",
+                        file.string(), f.number, f.id.empty() ? "" : ", id ", f.id,
+                        number ? "place on earth" : "number", v.x(), v.y()));
     });
     settle_crs(out, srs, driver, options, file);
     return out;

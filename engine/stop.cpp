@@ -1,0 +1,28 @@
+#include "engine/stop.h"
+
+#include <atomic>
+#include <csignal>
+
+namespace vfplan {
+namespace {
+
+std::atomic<int> signal_seen{0};
+
+void note_signal(int number) {
+    signal_seen = number;
+    std::signal(number, SIG_DFL);
+}
+
+}  // namespace
+
+void watch_signals() {
+    std::signal(SIGTERM, note_signal);
+    std::signal(SIGINT, note_signal);
+}
+
+void stop_if_asked() {
+    if (signal_seen == 0) return;
+    throw Stopped("stopped by a signal; nothing half-written is left, the same command goes on");
+}
+
+}  // namespace vfplan
