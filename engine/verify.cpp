@@ -220,7 +220,7 @@ VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Pro
     const FieldTable field = read_field(dir.file("field.h5"));
     const CoverageTables t = read_coverage(dir.file("coverage.h5"));
     if (!std::filesystem::exists(dir.file("plan.h5"))) {
-        throw IoError(fmt::format("{}: tables, but no plan yet; make one with vfplan plan {}",
+        throw IoError(fmt::format("{}: tables, but no plan.h5 yet; make it with vfplan plan {}",
                                   path.string(), path.string()));
     }
     const PlanTable table = read_plan(dir.file("plan.h5"));
