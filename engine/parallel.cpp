@@ -21,8 +21,8 @@ namespace {
 
 // TBB is not built for the thread sanitizer, which is therefore told that what precedes a loop
 // happens before its parts, and these before what follows the loop. Without it these do nothing.
-[[maybe_unused]] char loop_begun;
-[[maybe_unused]] char part_done;
+char loop_begun;
+char part_done;
 #ifdef __SANITIZE_THREAD__
 void release(char& mark) { __tsan_release(&mark); }
 void acquire(char& mark) { __tsan_acquire(&mark); }
