@@ -57,7 +57,7 @@ struct Config {
         std::vector<Vec2d> existing;
     } plan;
     struct {
-        std::vector<std::string> formats = {"geojson", "csv", "png"};
+        std::vector<std::string> formats = {"geojson", "gpkg", "csv", "png"};
         std::int64_t map_px = 1600;
     } output;
 };

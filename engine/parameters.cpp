@@ -214,9 +214,9 @@ std::vector<std::pair<Parameter, ParameterValue>> parameters(Config& c) {
 
         {{"output",
           "formats",
-          "files beside the tables: geojson, csv, png",
+          "files beside the tables: geojson, gpkg, csv, png",
           output,
-          {"geojson", "csv", "png"}},
+          {"geojson", "gpkg", "csv", "png"}},
          &c.output.formats},
         {{"output",
           "map_px",

@@ -10,6 +10,7 @@
 #include "io/files.h"
 #include "io/map_png.h"
 #include "io/sha256.h"
+#include "io/vector_writer.h"
 
 namespace vfplan {
 namespace {
@@ -159,18 +160,19 @@ void write_plan_files(const RunDir& dir, const Config& config, const FieldTable&
     write_plan(dir.file("plan.h5"),
                {p.plan, t.key, config.overlap.ratio, config.overlap.threshold});
     // What is not asked for does not stay from a plan before.
+    const auto asked = [&](const char* format, const char* name) {
+        std::error_code ignored;
+        if (!wants(config, format)) std::filesystem::remove(dir.file(name), ignored);
+        return wants(config, format);
+    };
     const auto put = [&](const char* format, const char* name, const auto& text) {
-        if (wants(config, format)) {
-            write_text(dir.file(name), text());
-        } else {
-            std::error_code ignored;
-            std::filesystem::remove(dir.file(name), ignored);
-        }
+        if (asked(format, name)) write_text(dir.file(name), text());
     };
     put("csv", "stations.csv", [&] { return stations_csv(t, p.plan); });
     put("csv", "links.csv", [&] { return links_csv(p.plan); });
     put("csv", "pieces.csv", [&] { return pieces_csv(t, p.plan); });
     put("geojson", "stations.geojson", [&] { return stations_geojson(t, p.plan); });
+    if (asked("gpkg", "plan.gpkg")) write_gpkg(dir.file("plan.gpkg"), t, p.plan);
     put("png", "map.png", [&] {
         return map_png(map_of(config, field, t, p), static_cast<int>(config.output.map_px));
     });
