@@ -37,7 +37,11 @@ public:
     Package& operator=(const Package&) = delete;
 
     void layer(const char* name, OGRwkbGeometryType type) {
-        layer_ = GDALDatasetCreateLayer(set_, name, srs_, type, nullptr);
+        // -1: plain metres, where the input said nothing.
+        std::string undefined = "SRID=-1";
+        char* options[] = {undefined.data(), nullptr};
+        layer_ =
+            GDALDatasetCreateLayer(set_, name, srs_, type, srs_ == nullptr ? options : nullptr);
         check(layer_ != nullptr);
         check(GDALDatasetStartTransaction(set_, 0) == OGRERR_NONE);
     }
