@@ -24,7 +24,10 @@ public:
         CPLSetConfigOption("OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z");  // equal bytes
         CPLPushErrorHandler(CPLQuietErrorHandler);
         set_ = GDALCreate(GDALGetDriverByName("GPKG"), file.c_str(), 0, 0, 0, GDT_Unknown, nullptr);
-        if (!crs_wkt.empty()) srs_ = OSRNewSpatialReference(crs_wkt.c_str());
+        // Without a CRS the coordinates are plain metres, which the format knows by this name.
+        srs_ = OSRNewSpatialReference(crs_wkt.empty()
+                                          ? R"(LOCAL_CS["Undefined Cartesian SRS",UNIT["metre",1]])"
+                                          : crs_wkt.c_str());
         check(set_ != nullptr);
     }
     ~Package() {
@@ -37,11 +40,7 @@ public:
     Package& operator=(const Package&) = delete;
 
     void layer(const char* name, OGRwkbGeometryType type) {
-        // -1: plain metres, where the input said nothing.
-        std::string undefined = "SRID=-1";
-        char* options[] = {undefined.data(), nullptr};
-        layer_ =
-            GDALDatasetCreateLayer(set_, name, srs_, type, srs_ == nullptr ? options : nullptr);
+        layer_ = GDALDatasetCreateLayer(set_, name, srs_, type, nullptr);
         check(layer_ != nullptr);
         check(GDALDatasetStartTransaction(set_, 0) == OGRERR_NONE);
     }
