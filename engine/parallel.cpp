@@ -20,16 +20,20 @@ namespace vfplan {
 namespace {
 
 // TBB is not built for the thread sanitizer, which is therefore told that what precedes a loop
-// happens before its parts, and these before what follows the loop. Without it these do nothing.
+// happens before its parts, and these before what follows the loop; and not to watch what TBB
+// copies when it splits a loop and hands from thread to thread. Otherwise these do nothing.
 char loop_begun;
 char part_done;
 #ifdef __SANITIZE_THREAD__
 void release(char& mark) { __tsan_release(&mark); }
 void acquire(char& mark) { __tsan_acquire(&mark); }
+#define VFPLAN_UNWATCHED __attribute__((no_sanitize("thread")))
 #else
 void release(char&) {}
 void acquire(char&) {}
+#define VFPLAN_UNWATCHED
 #endif
+
 struct PartEnds {
     ~PartEnds() { release(part_done); }
 };
@@ -37,22 +41,22 @@ struct LoopEnds {
     ~LoopEnds() { acquire(part_done); }
 };
 
-// What TBB copies when it splits a loop, and hands from thread to thread.
 class Part {
 public:
     using Body = std::function<void(std::int64_t, std::int64_t)>;
 
-    explicit Part(const Body& body) : body_(&body) { release(loop_begun); }
-    Part(const Part& other) : body_((acquire(loop_begun), other.body_)) { release(loop_begun); }
+    explicit Part(const Body& body) : body_(&body) {}
+    VFPLAN_UNWATCHED Part(const Part& other) : body_(other.body_) {}
     Part& operator=(const Part&) = delete;
 
     void operator()(const tbb::blocked_range<std::int64_t>& r) const {
         acquire(loop_begun);
         const PartEnds when_left;  // by an exception too
-        (*body_)(r.begin(), r.end());
+        body()(r.begin(), r.end());
     }
 
 private:
+    VFPLAN_UNWATCHED const Body& body() const { return *body_; }
     const Body* body_;
 };
 
@@ -103,6 +107,7 @@ Threads::~Threads() = default;
 void Threads::for_each(std::int64_t n, std::int64_t grain,
                        const std::function<void(std::int64_t, std::int64_t)>& body) const {
     const Part part(body);
+    release(loop_begun);
     const LoopEnds when_left;
     impl_->arena.execute([&] {
         tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, n, static_cast<std::size_t>(grain)),

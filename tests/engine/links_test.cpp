@@ -179,6 +179,26 @@ TEST(Links, AWayOnWhichTheViewJumpsAddsNothing) {
     EXPECT_TRUE(cells_of(found.candidates, link).empty());
 }
 
+TEST(Links, AFailedWayAddsNothingBesideAGoodOne) {
+    // A long hall, split on the way, with a gap of 1 cm at its far end; a wide door at the near
+    // one.
+    World::Setting s;
+    s.scanner.range_max_m = 12;
+    const World w(
+        s, {ring_of({{0, 0}, {10, 0}, {50, 0}, {60, 0}, {60, 10}, {50, 10}, {10, 10}, {0, 10}})},
+        {wall({10, 0}, {10, 1}), wall({10, 7}, {10, 10}), wall({50, 0}, {50, 4.4947}),
+         wall({50, 4.5047}, {50, 10})});
+    const auto g = w.drawn({{{3, 5}, {6, 5}}, {{13, 5}, {16, 5}}, {{53, 5}, {56, 5}}});
+    CandidateOptions o;
+    o.threshold = 0.85;
+    const CandidateResult found = w.candidates(g, o);
+    EXPECT_FALSE(cells_of(found.candidates, link).empty());
+    EXPECT_GT(found.report.parts, 1);
+    std::int64_t beyond = 0;  // only rescues stand there
+    for (const Candidate& c : found.candidates) beyond += c.kind == link && c.at.x() > 45 ? 1 : 0;
+    EXPECT_EQ(beyond, 0);
+}
+
 TEST(Links, WaysLeadOverCellsThatSeeSomething) {
     Rooms r(2, 1, 3);
     for (std::int32_t y = 0; y < r.world.grid.ny; ++y) {  // blind before the wall

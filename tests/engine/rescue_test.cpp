@@ -132,9 +132,11 @@ TEST(Rescue, RespectsWhatTheScannerObserves) {
 }
 
 TEST(Rescue, InNooksAndBehindPillars) {
-    for (const double cell : {0.5, 1.0}) {
+    for (const auto& [cell, fraction] :
+         {std::pair(0.5, 0.5), std::pair(1.0, 0.5), std::pair(1.0, 0.9), std::pair(2.0, 1.0)}) {
         World::Setting s;
         s.cell_m = cell;
+        s.visible_fraction = fraction;
         s.partition_m = 0.7;
         s.scanner.range_max_m = 15;
         const World w(s, {ring_of({{0, 0},
@@ -172,6 +174,29 @@ TEST(Rescue, CellsInsideTheDomainComeFirst) {
     std::fill(w.domain.begin(), w.domain.end(), 0);
     w.field[at(w.cell(19.5, 2.5))] = 6.5;
     EXPECT_EQ(cells_of(w.found().candidates, rescue), std::vector{w.cell(19.5, 2.5)});
+}
+
+TEST(Rescue, APieceThatARescueSeesNeedsNoOther) {
+    // Two cells: all that the second sees the first sees too, and only that the first piece.
+    World::Setting s;
+    s.scanner.range_max_m = 6;
+    TwoRooms w(s);
+    const std::int64_t wide = w.cell(19.5, 2.5);
+    const std::int64_t narrow = w.cell(20.5, 1.5);
+    for (std::int64_t c = 0; c < w.grid.size(); ++c) {
+        if (w.grid.centre(c).x() < 11 || c == wide || c == narrow) continue;
+        w.field[at(c)] = std::nanf("");
+        w.standable[at(c)] = 0;
+    }
+    w.field[at(wide)] = 6.0F;
+    w.field[at(narrow)] = 6.2F;  // preferred where both see
+    const CandidateResult r = w.found();
+    expect_right(w, r);
+    for (const Candidate& c : r.candidates) {
+        if (c.at.x() > 11) {
+            EXPECT_EQ(c.cell, wide);
+        }
+    }
 }
 
 TEST(Rescue, NoStationStandsWhereTheFieldIsNaN) {

@@ -92,6 +92,28 @@ TEST(Splitting, TheMiddleIsThatOfTheArc) {
     EXPECT_EQ(pool.candidates()[2].kind, split);
 }
 
+TEST(Splitting, RingsAreSplitAllTheWayRound) {
+    World::Setting s;
+    s.scanner.range_max_m = 12;
+    const World w(s, {box_ring(0, 0, 40, 40), box_ring(12, 12, 28, 28)});
+    const RidgeGraph g = w.drawn(
+        {{{10, 6}, {30, 6}, {34, 10}, {34, 30}, {30, 34}, {10, 34}, {6, 30}, {6, 10}, {10, 6}}});
+    ASSERT_TRUE(g.ridges[0].ring);
+    const CandidateResult r = w.candidates(g, overlap_of(0.5));
+    EXPECT_EQ(r.report.ridges_short_of_overlap, 0);
+    std::set<std::int64_t> chosen;
+    for (const Candidate& c : r.candidates) chosen.insert(c.cell);
+    std::vector<CoverageRow> rows;
+    for (const std::int64_t c : g.ridges[0].cells) {
+        if (chosen.contains(c)) rows.push_back(w.viewer->row(w.grid.centre(c)));
+    }
+    ASSERT_GT(rows.size(), 8U);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        EXPECT_GE(overlap(OverlapRatio::mean_len, w.pieces, rows[i], rows[(i + 1) % rows.size()]),
+                  0.5);
+    }
+}
+
 // Sees no wall at all.
 class Blind final : public ViewKernel {
 public:
