@@ -47,7 +47,7 @@ struct CandidateResult {
 
 // Deterministic for any number of threads. `progress` hears a phase's name when it begins.
 CandidateResult find_candidates(const Viewer& viewer, const Threads& threads, const Ground& ground,
-                                const RidgeGraph& ridges, const CandidateOptions& options,
+                                const RidgeGraph& graph, const CandidateOptions& options,
                                 const std::function<void(const char*)>& progress);
 
 // --- parts shared by candidates.cpp, rescue.cpp and links.cpp ------------------------------------
@@ -64,7 +64,7 @@ public:
     void add_points(const std::vector<Vec2d>& points, CandidateKind kind);
     // Adds one that has been looked from already, unless its cell is there. cell -1: no cell's
     // centre.
-    void add_seen(const Vec2d& at, std::int64_t cell, CandidateKind kind, CoverageRow row,
+    void add_seen(const Vec2d& point, std::int64_t cell, CandidateKind kind, CoverageRow row,
                   float vf_rad);
     bool has(std::int64_t cell) const { return index_.contains(cell); }
     const CoverageRow& row_at(std::int64_t cell) const { return rows_[index_.at(cell)]; }

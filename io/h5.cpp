@@ -100,7 +100,7 @@ Writer::Writer(std::filesystem::path path) : impl_(new Impl{std::move(path), {},
     impl_->aside = impl_->path;
     impl_->aside += ".tmp";
     const Id create(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-    H5Pset_obj_track_times(create, 0);
+    H5Pset_obj_track_times(create, false);
     H5Pset_link_creation_order(create, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
     const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V110);
@@ -124,7 +124,7 @@ Writer::~Writer() {
 
 void Writer::group(const std::string& name) {
     const Id create(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
-    H5Pset_obj_track_times(create, 0);
+    H5Pset_obj_track_times(create, false);
     const Id g(H5Gcreate2(impl_->file, name.c_str(), H5P_DEFAULT, create, H5P_DEFAULT), H5Gclose);
     if (g < 0) impl_->fail("group " + name);
 }
@@ -139,7 +139,7 @@ void Writer::write(const std::string& name, const std::vector<T>& data, Dims dim
     const Id space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
                    H5Sclose);
     const Id create(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_obj_track_times(create, 0);
+    H5Pset_obj_track_times(create, false);
     if (count >= 256) {
         const Dims chunk = chunk_of(dims);
         const std::vector<hsize_t> c(chunk.begin(), chunk.end());
@@ -172,7 +172,7 @@ void Writer::write_strings(const std::string& name, const std::vector<std::strin
     const hsize_t count = data.size();
     const Id space(H5Screate_simple(1, &count, nullptr), H5Sclose);
     const Id create(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_obj_track_times(create, 0);
+    H5Pset_obj_track_times(create, false);
     const Id set(
         H5Dcreate2(impl_->file, name.c_str(), type, space, H5P_DEFAULT, create, H5P_DEFAULT),
         H5Dclose);

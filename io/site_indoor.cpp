@@ -55,7 +55,7 @@ void build_indoor(const Sorted& in, const SiteOptions& options, Site& site) {
     const double snap = options.snap_m;
     std::vector<Polygon> solids = in.polys(Role::wall);
     append(solids, in.polys(Role::building));
-    std::vector<Polygon> obstacles = in.polys(Role::obstacle);
+    const std::vector<Polygon>& obstacles = in.polys(Role::obstacle);
     std::vector<Polygon> doorways;
 
     Blocking blocking;

@@ -112,7 +112,7 @@ std::vector<Wall> walls_from_lines(const Blocking& blocking, double snap_m,
             edges.push_back({e.first, e.second, cls});
         }
     }
-    for (const Edge& e : before) counts.split += after.count(e) == 0 ? 1 : 0;
+    for (const Edge& e : before) counts.split += after.contains(e) ? 0 : 1;
     const std::size_t noded = edges.size();
     edges = join_collinear(std::move(edges));
     counts.merged += static_cast<std::int64_t>(noded - edges.size());

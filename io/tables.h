@@ -43,14 +43,14 @@ struct PlanTable {
 };
 
 // All throw IoError. Writing is whole or not at all; equal tables give equal bytes.
-void write_field(const std::filesystem::path& file, const FieldTable& table);
-FieldTable read_field(const std::filesystem::path& file);
-void write_coverage(const std::filesystem::path& file, const CoverageTables& tables);
-CoverageTables read_coverage(const std::filesystem::path& file);
-void write_plan(const std::filesystem::path& file, const PlanTable& table);
-PlanTable read_plan(const std::filesystem::path& file);
+void write_field(const std::filesystem::path& path, const FieldTable& table);
+FieldTable read_field(const std::filesystem::path& path);
+void write_coverage(const std::filesystem::path& path, const CoverageTables& tables);
+CoverageTables read_coverage(const std::filesystem::path& path);
+void write_plan(const std::filesystem::path& path, const PlanTable& table);
+PlanTable read_plan(const std::filesystem::path& path);
 
 // The key stored in a complete table; empty when the file is missing or incomplete.
-std::string key_of(const std::filesystem::path& file);
+std::string key_of(const std::filesystem::path& path);
 
 }  // namespace vfplan

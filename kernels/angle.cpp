@@ -59,7 +59,7 @@ std::vector<Vec2d> circle_directions(int count) {
         for (std::size_t i = 0; i < d.size(); ++i) {
             const Vec2d sum = d[i] + d[(i + 1) % d.size()];
             finer.push_back(d[i]);
-            finer.push_back(sum / std::sqrt(sum.x() * sum.x() + sum.y() * sum.y()));
+            finer.emplace_back(sum / std::sqrt(sum.x() * sum.x() + sum.y() * sum.y()));
         }
         d = std::move(finer);
     }

@@ -22,7 +22,7 @@ struct Node {
 // The walls' ends as the eye sees them.
 class Ends {
 public:
-    Ends(const std::vector<Wall>& walls, const Vec2d& eye) : walls_(walls), eye_(eye) {}
+    Ends(const std::vector<Wall>& walls, Vec2d eye) : walls_(walls), eye_(std::move(eye)) {}
 
     const Wall& wall(std::int32_t id) const { return walls_[static_cast<std::size_t>(id)]; }
     Side side(std::int32_t id) const {
