@@ -163,7 +163,7 @@ TEST(Config, WrongTypesSayWhatIsExpected) {
              {"plan.existing = [[1, inf]]", {"finite"}},
              {"output.formats = \"png\"", {"a list"}},
              {"output.formats = [1]", {"a list of texts"}},
-             {"output.formats = [\"png\", \"svg\"]", {"one of", "geojson, csv, png"}},
+             {"output.formats = [\"png\", \"svg\"]", {"one of", "geojson", "csv, png"}},
              {"overlap.ratio = \"max_len\"", {"one of", "min_len", "mean_ang"}},
              {"preset = \"garden\"", {"one of: outdoor, indoor"}}}) {
         const std::string said = message("\n" + line + "\n");
