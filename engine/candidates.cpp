@@ -13,7 +13,11 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 // of a ring.
 std::vector<std::int64_t> points_without_joint(const Grid& grid, const Ridge& ridge) {
     const auto& cells = ridge.cells;
-    if (ridge.ring) return {cells.front(), cells[cells.size() / 2]};
+    if (ridge.ring && cells.size() > 2) {
+        CellPath closed = cells;
+        closed.push_back(cells.front());
+        return {cells.front(), closed[arc_middle(grid, closed, 0, closed.size() - 1)]};
+    }
     if (cells.size() < 3) return {cells.front()};
     return {cells[arc_middle(grid, cells, 0, cells.size() - 1)]};
 }

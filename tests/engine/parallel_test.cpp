@@ -51,12 +51,12 @@ TEST(Threads, EveryIndexIsVisitedOnce) {
     }
 }
 
-TEST(Threads, PartsHaveAtLeastAGrainOfIndices) {
+TEST(Threads, PartsHaveAtLeastHalfAGrainOfIndices) {
     std::atomic<std::int64_t> least = 17;
     Threads(2).for_each(17, 16, [&](std::int64_t from, std::int64_t to) {
         least = std::min(least.load(), to - from);
     });
-    EXPECT_GE(least, 16);
+    EXPECT_GE(least, 8);
 }
 
 TEST(Threads, NothingToDoCallsNothing) {
