@@ -269,11 +269,6 @@ void check_together(const Config& c, const std::string& name) {
     if (rays != 0 && (rays < 16 || (rays & (rays - 1)) != 0)) {
         fail(fmt::format("visibility.rays = {} must be 0 or a power of two from 16 on", rays));
     }
-    if (c.plan.method == "certified") {
-        fail(
-            "plan.method = \"certified\" is not in this version; \"refined\" gives a plan with a "
-            "packing lower bound in summary.json");
-    }
 }
 
 struct Writer {
@@ -337,6 +332,9 @@ Config read_config(const std::filesystem::path& file, const std::vector<std::str
     if (!std::filesystem::exists(file, ignored)) {
         throw UsageError(
             fmt::format("{}: no such job file; configs/ has some to copy", file.string()));
+    }
+    if (std::filesystem::is_directory(file, ignored)) {
+        throw UsageError(fmt::format("{}: is a folder, not a job file", file.string()));
     }
     return parse_config(read_text(file), file.string(), file.parent_path(), overrides);
 }

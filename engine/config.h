@@ -25,6 +25,7 @@ struct Config {
         double unit_m = 1;
         double snap_m = 0.001;
         double margin_m = 10;
+        double clearance_m = 0;
         std::string invalid = "error";
     } site;
     struct {

@@ -19,8 +19,8 @@ public:
 
     int count() const { return count_; }
 
-    // Calls body(from, to) for disjoint parts of [0, n) of at least grain / 2 indices each (n, if that is less).
-    // The first exception of a body is thrown again here.
+    // Calls body(from, to) for disjoint parts of [0, n) of at least grain / 2 indices each (n, if
+    // that is less). The first exception of a body is thrown again here.
     void for_each(std::int64_t n, std::int64_t grain,
                   const std::function<void(std::int64_t from, std::int64_t to)>& body) const;
 

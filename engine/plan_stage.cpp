@@ -108,6 +108,7 @@ std::string result_hash(const FieldTable& field, const CoverageTables& t, const 
 nlohmann::ordered_json summary_of(const Planned& p, const CoverageTables& t) {
     const Metrics& m = p.metrics;
     nlohmann::ordered_json j;
+    j["crs"] = crs_name(t.crs_wkt);
     j["candidates"] = t.candidates.size();
     j["pieces"] = t.pieces.size();
     j["pieces_coverable"] = m.pieces_coverable;
@@ -192,22 +193,24 @@ std::string apart_text(const Planned& p, const Config& config) {
             ++enclosed;
         }
     }
+    const auto networks = [](std::int64_t n) {
+        return fmt::format("{} network{}", n, n == 1 ? "" : "s");
+    };
     std::string out = fmt::format(
-        "apart        {} pieces are seen from {} other network{} only (summary.json: "
-        "network_list)\n",
-        m.pieces_unreached, m.networks - 1, m.networks == 2 ? "" : "s");
+        "apart        {} pieces are seen from {} besides only (network_list in summary.json)\n",
+        m.pieces_unreached, networks(m.networks - 1));
     if (enclosed > 0) {
         out += fmt::format(
-            "             {} of them see nothing that is seen from the main one: "
-            "walls enclose them\n",
-            enclosed);
+            "             {}: no chain of candidates shares a piece with the main one; walls or "
+            "distance part them, or cells of {} m are too coarse for the way between\n",
+            networks(enclosed), config.field.cell_m);
     }
     if (const std::int64_t weak = m.networks - 1 - enclosed; weak > 0) {
         out += fmt::format(
-            "             {} would join at overlap.threshold = {:.3f} (now {}); "
-            "with ratio min_len there would be {} networks\n",
-            weak, std::floor(least * 1000) / 1000, config.overlap.threshold,
-            p.joining.networks_by_min_len);
+            "             {}: joined from overlap.threshold = {:.3f} down (now {}); smaller cells "
+            "may help; with ratio min_len there would be {} in all\n",
+            networks(weak), std::floor(least * 1000) / 1000, config.overlap.threshold,
+            networks(p.joining.networks_by_min_len));
     }
     return out;
 }

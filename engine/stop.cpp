@@ -22,7 +22,7 @@ void watch_signals() {
 
 void stop_if_asked() {
     if (signal_seen == 0) return;
-    throw Stopped("stopped by a signal; nothing half-written is left, the same command goes on");
+    throw Stopped("stopped by a signal; nothing half-written is left, run the same command again");
 }
 
 }  // namespace vfplan

@@ -18,26 +18,21 @@ namespace {
 // Bytes per cell: field, masks, distance with its two offsets, floods of the links.
 constexpr double bytes_per_cell = 4 + 5 + 12 + 16;
 
-void forbid(const Config& config, const Site& site, const Grid& grid,
-            Raster<std::uint8_t>& standable) {
-    if (config.plan.forbidden.empty()) return;
-    std::vector<Ring> rings;
-    const FeatureSet set = read_features(
-        config.plan.forbidden, {SiteKind::outdoor, "", config.site.crs, config.site.unit_m});
-    for (const Feature& f : set.features) {
-        for (const Polygon& p : f.polygons) {
-            const auto add = [&](Ring ring) {
-                for (Vec2d& v : ring) v -= site.origin;
-                rings.assign(1, std::move(ring));
-            };
-            Raster<std::uint8_t> inside;
-            add(p.outer);
-            inside = free_cells(grid, rings);
-            for (std::size_t i = 0; i < inside.size(); ++i) {
-                if (inside[i] != 0) standable[i] = 0;
+std::vector<Ring> forbidden_rings(const Config& config, const Site& site) {
+    if (config.plan.forbidden.empty()) return {};
+    std::vector<Polygon> polygons;
+    for (Feature& f : read_features(config.plan.forbidden,
+                                    {SiteKind::outdoor, "", config.site.crs, config.site.unit_m})
+                          .features) {
+        for (Polygon& p : f.polygons) {
+            for (Vec2d& v : p.outer) v -= site.origin;
+            for (Ring& hole : p.holes) {
+                for (Vec2d& v : hole) v -= site.origin;
             }
+            polygons.push_back(std::move(p));
         }
     }
+    return rings_of_union(polygons, config.site.snap_m);
 }
 
 // Processor seconds of a view, from a spread of free cells.
@@ -62,21 +57,37 @@ double seconds_per_view(const Config& config, const Prepared& p) {
            static_cast<double>(std::max<std::int64_t>(1, views));
 }
 
-std::vector<Vec2d> in_site_frame(const std::vector<Vec2d>& points, const Prepared& p,
-                                 const char* key, bool must_stand) {
+bool in_rings(const std::vector<Ring>& rings, const Vec2d& p) {
+    bool inside = false;
+    for (const Ring& ring : rings) {
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const Vec2d& a = ring[i];
+            const Vec2d& b = ring[(i + 1) % ring.size()];
+            if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+            if (p.x() < a.x() + (b.x() - a.x()) * ((p.y() - a.y()) / (b.y() - a.y()))) {
+                inside = !inside;
+            }
+        }
+    }
+    return inside;
+}
+
+std::vector<Vec2d> in_site_frame(const std::vector<Vec2d>& points, const Site& site,
+                                 const std::vector<Ring>& forbidden, const char* key) {
     std::vector<Vec2d> out;
     for (const Vec2d& point : points) {
-        const Vec2d at = point - p.site.origin;
-        const Vec2d cell = (at - p.grid.origin) / p.grid.cell_m;
-        const auto ix = static_cast<std::int32_t>(std::floor(cell.x()));
-        const auto iy = static_cast<std::int32_t>(std::floor(cell.y()));
-        const bool inside = p.grid.inside(ix, iy);
-        if (!inside ||
-            (must_stand && p.standable[static_cast<std::size_t>(p.grid.id(ix, iy))] == 0)) {
+        const Vec2d at = point - site.origin;
+        const char* why = nullptr;
+        if (!site.extent.contains(at) || !in_rings(site.free_region, at)) {
+            why = "it is not in free space";
+        } else if (in_rings(forbidden, at)) {
+            why = "plan.forbidden covers it";
+        }
+        if (why != nullptr) {
             throw UsageError(
-                fmt::format("{}: no station can stand at ({}, {}); give a point in "
-                            "free space, in the file's metres",
-                            key, point.x(), point.y()));
+                fmt::format("{}: no station can stand at ({}, {}): {}; give a point in "
+                            "the coordinates of the site",
+                            key, point.x(), point.y(), why));
         }
         out.push_back(at);
     }
@@ -140,15 +151,21 @@ Prepared prepare(const Config& config, Site site) {
     }
     p.grid = make_grid(p.site.extent, cell, config.site.snap_m);
     p.standable = free_cells(p.grid, p.site.free_region);
-    forbid(config, p.site, p.grid, p.standable);
+    const std::vector<Ring> forbidden = forbidden_rings(config, p.site);
+    const Raster<std::uint8_t> kept_out = free_cells(p.grid, forbidden);
+    const Raster<std::uint8_t> too_near =
+        cells_near_walls(p.grid, p.site.walls, config.site.clearance_m);
+    for (std::size_t i = 0; i < p.standable.size(); ++i) {
+        if (kept_out[i] != 0 || too_near[i] != 0) p.standable[i] = 0;
+    }
     if (std::count(p.standable.begin(), p.standable.end(), 1) == 0) {
         throw UsageError(
             fmt::format("field.cell_m = {}: no cell's centre lies in free space; "
                         "choose a smaller cell",
                         cell));
     }
-    p.required = in_site_frame(config.plan.required, p, "plan.required", true);
-    p.existing = in_site_frame(config.plan.existing, p, "plan.existing", false);
+    p.required = in_site_frame(config.plan.required, p.site, forbidden, "plan.required");
+    p.existing = in_site_frame(config.plan.existing, p.site, {}, "plan.existing");
     return p;
 }
 

@@ -13,6 +13,15 @@ const Candidate& candidate_of(const CoverageTables& t, const Station& s) {
 
 }  // namespace
 
+std::string crs_name(const std::string& crs_wkt) {
+    // The code of the whole stands last.
+    const std::string label = "AUTHORITY[\"EPSG\",\"";
+    const auto at = crs_wkt.rfind(label);
+    if (at == std::string::npos) return "";
+    const auto from = at + label.size();
+    return "EPSG:" + crs_wkt.substr(from, crs_wkt.find('"', from) - from);
+}
+
 std::string stations_csv(const CoverageTables& t, const Plan& plan) {
     std::string out = "id,x,y,component,order,new_length_m,seen_length_m\n";
     for (std::size_t i = 0; i < plan.stations.size(); ++i) {
@@ -25,9 +34,15 @@ std::string stations_csv(const CoverageTables& t, const Plan& plan) {
 }
 
 std::string stations_geojson(const CoverageTables& t, const Plan& plan) {
+    // Plain metres and projected coordinates need saying so: the format itself means degrees.
+    const std::string crs = crs_name(t.crs_wkt);
     std::string out =
-        "{\"type\": \"FeatureCollection\", \"name\": \"stations\", \"units\": \"m\", "
-        "\"features\": [\n";
+        "{\"type\": \"FeatureCollection\", \"name\": \"stations\", \"units\": \"m\", ";
+    if (!crs.empty()) {
+        out += fmt::format(
+            "\"crs\": {{\"type\": \"name\", \"properties\": {{\"name\": \"{}\"}}}}, ", crs);
+    }
+    out += "\"features\": [\n";
     for (std::size_t i = 0; i < plan.stations.size(); ++i) {
         const Station& s = plan.stations[i];
         const Candidate& c = candidate_of(t, s);

@@ -13,4 +13,7 @@ std::string stations_geojson(const CoverageTables& tables, const Plan& plan);
 std::string links_csv(const Plan& plan);
 std::string pieces_csv(const CoverageTables& tables, const Plan& plan);
 
+// "EPSG:32633" from a CRS in WKT; empty when it names no such code.
+std::string crs_name(const std::string& crs_wkt);
+
 }  // namespace vfplan

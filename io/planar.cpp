@@ -169,8 +169,11 @@ std::vector<Polygon> repaired(const Polygon& p) {
 
 std::vector<Polygon> unite(const std::vector<Polygon>& polygons, double snap_m) {
     if (polygons.empty()) return {};
+    const Geometry united =
+        checked(GEOSUnaryUnionPrec_r(context(), polygons_of(polygons).get(), snap_m), "a union");
+    // A union of one polygon comes back as it was, off the grid.
     return polygons_in(
-        checked(GEOSUnaryUnionPrec_r(context(), polygons_of(polygons).get(), snap_m), "a union"));
+        checked(GEOSGeom_setPrecision_r(context(), united.get(), snap_m, 0), "snapping"));
 }
 
 std::vector<Polygon> subtract(const std::vector<Polygon>& from, const std::vector<Polygon>& what,
@@ -208,9 +211,14 @@ std::vector<Polygon> strips(const std::vector<Line>& lines, double distance_m, b
 }
 
 std::vector<Line> node(const std::vector<Line>& lines, double snap_m) {
-    if (lines.empty()) return {};
+    // Edge by edge: GEOS leaves a line that is alone as it was, crossings with itself and all.
+    std::vector<Line> edges;
+    for (const Line& line : lines) {
+        for (std::size_t i = 1; i < line.size(); ++i) edges.push_back({line[i - 1], line[i]});
+    }
+    if (edges.empty()) return {};
     return lines_in(
-        checked(GEOSUnaryUnionPrec_r(context(), lines_of(lines).get(), snap_m), "noding"));
+        checked(GEOSUnaryUnionPrec_r(context(), lines_of(edges).get(), snap_m), "noding"));
 }
 
 double inscribed_radius(const Polygon& p) {

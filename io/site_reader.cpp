@@ -87,10 +87,21 @@ std::string problem_without_walls(const FeatureSet& set, const SiteOptions& opti
     return options.kind == SiteKind::outdoor
                ? "no walls are left after cleaning; if this is a floor plan set site.kind = "
                  "\"indoor\""
-               : "no walls are left after cleaning; if this is a town set site.kind = \"outdoor\"";
+               : "no walls are left after cleaning (rooms alone are none: give walls or an "
+                 "outline); if "
+                 "this is a town set site.kind = \"outdoor\"";
 }
 
 }  // namespace
+
+std::vector<Ring> rings_of_union(const std::vector<Polygon>& polygons, double snap_m) {
+    std::vector<Ring> rings;
+    for (const Polygon& p : planar::unite(polygons, snap_m)) {
+        rings.push_back(p.outer);
+        rings.insert(rings.end(), p.holes.begin(), p.holes.end());
+    }
+    return rings;
+}
 
 SiteResult read_site(const std::filesystem::path& file, const SiteOptions& options) {
     return build_site(

@@ -42,6 +42,9 @@ SiteResult read_site(const std::filesystem::path& file, const SiteOptions& optio
 // The same from features in memory; `name` is used in messages.
 SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::string& name);
 
+// The rings of the union of polygons, for even-odd tests.
+std::vector<Ring> rings_of_union(const std::vector<Polygon>& polygons, double snap_m);
+
 // --- the parts, for site_outdoor.cpp and site_indoor.cpp -------------------------------------
 
 // The features by role, valid, in the site's frame.

@@ -18,6 +18,10 @@ Grid make_grid(const Box& extent, double cell_m, double snap_m);
 // Time O(cells + edges x rows they span).
 Raster<std::uint8_t> free_cells(const Grid& grid, const std::vector<Ring>& free_region);
 
+// 1 for cells whose centre is nearer to a wall than clearance_m; all 0 for a clearance of 0.
+Raster<std::uint8_t> cells_near_walls(const Grid& grid, const std::vector<Wall>& walls,
+                                      double clearance_m);
+
 // The eight neighbours of a cell, counter-clockwise from east; even ones share an edge.
 inline constexpr std::int32_t around_dx[8] = {1, 1, 0, -1, -1, -1, 0, 1};
 inline constexpr std::int32_t around_dy[8] = {0, 1, 1, 1, 0, -1, -1, -1};

@@ -199,7 +199,7 @@ TEST(Config, ParametersMustFitEachOther) {
         expect_words(message("", {std::string("visibility.rays=") + rays}), {"power of two"});
     }
     EXPECT_EQ(message("visibility.rays = 16\n"), "");
-    expect_words(message("plan.method = \"certified\"\n"), {"not in this version", "refined"});
+    expect_words(message("plan.method = \"certified\"\n"), {"must be one of", "refined"});
     EXPECT_THROW(parse_config("", "job.toml", "/", {}), UsageError);
     EXPECT_THROW(read_config("/no/such/job.toml", {}), UsageError);
 }

@@ -164,5 +164,25 @@ TEST(ClosedLinks, ThinWallPartsItsTwoSides) {
     }
 }
 
+TEST(CellsNearWalls, AreThoseWithinTheClearance) {
+    Grid g;
+    g.cell_m = 0.1;
+    g.nx = 40;
+    g.ny = 30;
+    Wall wall;
+    wall.a = {1, 1};
+    wall.b = {3, 2};
+    for (const double clearance : {0.0, 0.05, 0.4, 5.0}) {
+        const auto near = cells_near_walls(g, {wall}, clearance);
+        for (std::int64_t c = 0; c < g.size(); ++c) {
+            const Vec2d p = g.centre(c) - wall.a;
+            const Vec2d e = wall.b - wall.a;
+            const double t = std::min(1.0, std::max(0.0, p.dot(e) / e.dot(e)));
+            EXPECT_EQ(near[static_cast<std::size_t>(c)] != 0, (p - t * e).norm() < clearance)
+                << c << " at " << clearance;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace vfplan
