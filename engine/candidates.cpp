@@ -1,4 +1,5 @@
 #include "engine/candidates.h"
+#include "kernels/index.h"
 
 #include <algorithm>
 #include <numeric>
@@ -6,8 +7,6 @@
 
 namespace vfplan {
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // The points that a ridge without joints stands for: the middle of a line, two opposite points
 // of a ring.

@@ -1,15 +1,10 @@
 #include "engine/graph.h"
+#include "kernels/index.h"
 
 #include <algorithm>
 #include <unordered_map>
 
 namespace vfplan {
-namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 Graph make_graph(std::int32_t nodes, const std::vector<OverlapPair>& pairs) {
     Graph g;
     g.begin.assign(at(nodes) + 1, 0);

@@ -4,11 +4,10 @@
 #include <tuple>
 
 #include "engine/planner.h"
+#include "kernels/index.h"
 
 namespace vfplan {
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // A frontier candidate as it was when it entered the queue; both numbers may be out of date.
 struct Entry {

@@ -1,30 +1,11 @@
 #include "engine/joining.h"
+#include "engine/disjoint_sets.h"
+#include "kernels/index.h"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 
 namespace vfplan {
-namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-// Sets of candidates that merge.
-class Sets {
-public:
-    explicit Sets(std::int32_t n) : parent_(at(n)) { std::iota(parent_.begin(), parent_.end(), 0); }
-    std::int32_t root(std::int32_t v) {
-        while (parent_[at(v)] != v) v = parent_[at(v)] = parent_[at(parent_[at(v)])];
-        return v;
-    }
-    void merge(std::int32_t a, std::int32_t b) { parent_[at(root(a))] = root(b); }
-
-private:
-    std::vector<std::int32_t> parent_;
-};
-
-}  // namespace
-
 Joining find_joining(const Threads& threads, const PlanInput& in, const PlanOptions& options,
                      const Plan& plan) {
     std::vector<std::int32_t> first;  // a candidate of each network
@@ -47,14 +28,14 @@ Joining find_joining(const Threads& threads, const PlanInput& in, const PlanOpti
     std::stable_sort(pairs.begin(), pairs.end(), [](const OverlapPair& a, const OverlapPair& b) {
         return a.overlap > b.overlap;
     });
-    Sets sets(any.size());
+    DisjointSets sets(any.size());
     std::size_t open = first.size() - 1;
     for (const OverlapPair& p : pairs) {
         if (open == 0) break;
-        if (sets.root(p.from) == sets.root(p.to)) continue;
+        if (sets.together(p.from, p.to)) continue;
         sets.merge(p.from, p.to);
         for (std::size_t n = 1; n < first.size(); ++n) {
-            if (out.joins_at[n] > 0 || sets.root(first[n]) != sets.root(first[0])) continue;
+            if (out.joins_at[n] > 0 || !sets.together(first[n], first[0])) continue;
             out.joins_at[n] = p.overlap;
             --open;
         }

@@ -5,11 +5,10 @@
 #include "engine/flood.h"
 #include "engine/graph.h"
 #include "kernels/free_cells.h"
+#include "kernels/index.h"
 
 namespace vfplan {
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 std::vector<std::int32_t> parts_of(const CandidatePool& pool, const CandidateOptions& options) {
     CoverageTable table;

@@ -6,12 +6,12 @@
 #include <numeric>
 #include <queue>
 
+#include "engine/disjoint_sets.h"
 #include "kernels/angle.h"
+#include "kernels/index.h"
 
 namespace vfplan {
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 Graph graph_of(const Plan& plan) {
     std::vector<OverlapPair> pairs;
@@ -74,12 +74,7 @@ void measure_paths(const Threads& threads, const Graph& graph, Metrics& m) {
 
 // The smallest overlap on a maximum spanning tree of the main network.
 double bottleneck(const Plan& plan) {
-    std::vector<std::int32_t> parent(plan.stations.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](std::int32_t v) {
-        while (parent[at(v)] != v) v = parent[at(v)] = parent[at(parent[at(v)])];
-        return v;
-    };
+    DisjointSets sets(static_cast<std::int64_t>(plan.stations.size()));
     std::vector<Link> links;
     for (const Link& l : plan.links) {
         if (plan.stations[at(l.from)].network == 0) links.push_back(l);
@@ -88,10 +83,8 @@ double bottleneck(const Plan& plan) {
                      [](const Link& a, const Link& b) { return a.overlap > b.overlap; });
     double weakest = 0;
     for (const Link& l : links) {
-        const std::int32_t a = root(l.from);
-        const std::int32_t b = root(l.to);
-        if (a == b) continue;
-        parent[at(a)] = b;
+        if (sets.together(l.from, l.to)) continue;
+        sets.merge(l.from, l.to);
         weakest = l.overlap;
     }
     return weakest;

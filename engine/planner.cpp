@@ -1,12 +1,11 @@
 #include "engine/planner.h"
+#include "kernels/index.h"
 
 #include <algorithm>
 #include <numeric>
 
 namespace vfplan {
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 bool is_forced(const Candidate& c) {
     return c.kind == CandidateKind::required || c.kind == CandidateKind::existing;

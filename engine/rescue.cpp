@@ -4,6 +4,7 @@
 
 #include "engine/candidates.h"
 #include "kernels/angle.h"
+#include "kernels/index.h"
 
 namespace vfplan {
 namespace {
@@ -11,8 +12,6 @@ namespace {
 constexpr int samples = 8;               // points along a piece that are looked from
 constexpr double off_the_wall_m = 2e-4;  // how far before the wall they lie
 constexpr std::size_t tests_most = 200;  // real views from cells that look good
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // What a point on a wall sees, for asking whether a cell is in sight of it.
 class Sight {

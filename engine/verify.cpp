@@ -10,11 +10,10 @@
 #include "engine/viewer.h"
 #include "io/tables.h"
 #include "kernels/error.h"
+#include "kernels/index.h"
 
 namespace vfplan {
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 class Checks {
 public:

@@ -1,4 +1,5 @@
 #include "kernels/exact_scene.h"
+#include "kernels/index.h"
 
 #include <algorithm>
 #include <cassert>
@@ -31,8 +32,6 @@ void join_first_and_last(View& view) {
     first.s_begin_m = last.s_begin_m;
     view.pop_back();
 }
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

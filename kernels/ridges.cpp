@@ -5,12 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "kernels/index.h"
 #include "kernels/skeleton.h"
 
 namespace vfplan {
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // Calls f(neighbour cell) for the skeleton neighbours of a cell.
 template <class F>

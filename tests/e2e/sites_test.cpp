@@ -1,5 +1,4 @@
 // Real sites at the settings they are planned with: every plan verified, every piece accounted for.
-// VFPLAN_TEST_SLOW=1 adds the slow ones.
 #include "program.h"
 
 namespace vfplan::test {
@@ -11,13 +10,7 @@ struct Case {
     const char* config;
     const char* kernel;
     bool whole;  // must become one network that covers every coverable piece
-    bool slow;   // only when VFPLAN_TEST_SLOW=1
 };
-
-bool with_slow() {
-    const char* value = std::getenv("VFPLAN_TEST_SLOW");
-    return value != nullptr && std::string(value) == "1";
-}
 
 void expect_networks_listed(const Json& s) {
     const double threshold = s["overlap"]["threshold"];
@@ -64,7 +57,6 @@ class Sites : public ::testing::TestWithParam<Case> {};
 TEST_P(Sites, EveryPlanHolds) {
     const Case& c = GetParam();
     VFPLAN_NEED_DATA(c.file);
-    if (c.slow && !with_slow()) GTEST_SKIP() << "slow; VFPLAN_TEST_SLOW=1 runs it";
     const Scratch scratch;
     const Path dir = scratch / "run";
     vfplan_expect(
@@ -83,34 +75,27 @@ TEST_P(Sites, EveryPlanHolds) {
 
 // Helsinki's perimeter blocks enclose courtyards, which only networks of their own can cover; so
 // does a closet of the house.
-const auto sites = [](const char* kernel, bool fast) {
-    const bool slow = !fast;
+const auto sites = [](const char* kernel) {
     return std::vector<Case>{
-        {"bellevue", "town_bellevue/bellevue_976x893.geojson", "town.toml", kernel, true, false},
-        {"bellevue_b", "town_bellevue/bellevue_b_976x893.geojson", "town.toml", kernel, true,
-         false},
-        {"karhula", "town_karhula/karhula_976x893.geojson", "town.toml", kernel, true, false},
+        {"bellevue", "town_bellevue/bellevue_976x893.geojson", "town.toml", kernel, true},
+        {"bellevue_b", "town_bellevue/bellevue_b_976x893.geojson", "town.toml", kernel, true},
+        {"karhula", "town_karhula/karhula_976x893.geojson", "town.toml", kernel, true},
         {"helsinki", "town_helsinki_centre/helsinki_centre_full.geojson", "town.toml", kernel,
-         false, slow},
-        {"apartment", "plan_houseexpo/houseexpo_0a1b29db.geojson", "office.toml", kernel, false,
          false},
-        {"house", "plan_house_overland/house_overland.geojson", "office.toml", kernel, false,
-         false},
-        {"milano", "plans_offices_schools/office_milano_1.geojson", "office.toml", kernel, true,
-         false},
+        {"apartment", "plan_houseexpo/houseexpo_0a1b29db.geojson", "office.toml", kernel, true},
+        {"house", "plan_house_overland/house_overland.geojson", "office.toml", kernel, false},
+        {"milano", "plans_offices_schools/office_milano_1.geojson", "office.toml", kernel, true},
         {"elm", "plans_offices_schools/office_324_elm_furn_plan.geojson", "office.toml", kernel,
-         true, slow},
-        {"off_2", "plans_offices_schools/office_off_2.geojson", "office.toml", kernel, true, slow},
-        {"borchen", "plans_offices_schools/school_borchen4.geojson", "office.toml", kernel, true,
-         false},
-        {"franch", "plans_offices_schools/school_franch1.geojson", "office.toml", kernel, true,
-         false},
+         true},
+        {"off_2", "plans_offices_schools/office_off_2.geojson", "office.toml", kernel, true},
+        {"borchen", "plans_offices_schools/school_borchen4.geojson", "office.toml", kernel, true},
+        {"franch", "plans_offices_schools/school_franch1.geojson", "office.toml", kernel, true},
     };
 };
 
 const auto named = [](const auto& i) { return std::string(i.param.name); };
-INSTANTIATE_TEST_SUITE_P(Exact, Sites, ::testing::ValuesIn(sites("exact", true)), named);
-INSTANTIATE_TEST_SUITE_P(Embree, Sites, ::testing::ValuesIn(sites("embree", false)), named);
+INSTANTIATE_TEST_SUITE_P(Exact, Sites, ::testing::ValuesIn(sites("exact")), named);
+INSTANTIATE_TEST_SUITE_P(Embree, Sites, ::testing::ValuesIn(sites("embree")), named);
 
 }  // namespace
 }  // namespace vfplan::test
