@@ -15,7 +15,7 @@ const Candidate& candidate_of(const CoverageTables& t, const Station& s) {
 
 std::string crs_name(const std::string& crs_wkt) {
     // The code of the whole stands last.
-    const std::string label = "AUTHORITY[\"EPSG\",\"";
+    const std::string label = R"(AUTHORITY["EPSG",")";
     const auto at = crs_wkt.rfind(label);
     if (at == std::string::npos) return "";
     const auto from = at + label.size();
@@ -36,11 +36,9 @@ std::string stations_csv(const CoverageTables& t, const Plan& plan) {
 std::string stations_geojson(const CoverageTables& t, const Plan& plan) {
     // Plain metres and projected coordinates need saying so: the format itself means degrees.
     const std::string crs = crs_name(t.crs_wkt);
-    std::string out =
-        "{\"type\": \"FeatureCollection\", \"name\": \"stations\", \"units\": \"m\", ";
+    std::string out = R"({"type": "FeatureCollection", "name": "stations", "units": "m", )";
     if (!crs.empty()) {
-        out += fmt::format(
-            "\"crs\": {{\"type\": \"name\", \"properties\": {{\"name\": \"{}\"}}}}, ", crs);
+        out += fmt::format(R"("crs": {{"type": "name", "properties": {{"name": "{}"}}}}, )", crs);
     }
     out += "\"features\": [\n";
     for (std::size_t i = 0; i < plan.stations.size(); ++i) {
