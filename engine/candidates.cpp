@@ -112,10 +112,8 @@ void CandidatePool::add_seen(const Vec2d& point, std::int64_t cell, CandidateKin
 
 void CandidatePool::add_points(const std::vector<Vec2d>& points, CandidateKind kind) {
     for (const Vec2d& p : points) {
-        const View seen = viewer_.observed(p);
-        candidates_.push_back({p, -1, kind, static_cast<float>(view_angle_rad(seen))});
-        rows_.push_back(
-            coverage_row(viewer_.walls(), viewer_.pieces(), p, seen, viewer_.visible_fraction()));
+        Viewer::Look look = viewer_.look(p);
+        add_seen(p, -1, kind, std::move(look.row), static_cast<float>(look.vf_rad));
     }
 }
 

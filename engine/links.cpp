@@ -61,10 +61,9 @@ private:
             middle.step = no_step;
             middle.at = (a.at + b.at) / 2;
         }
-        const View seen = pool_.viewer().observed(middle.at);
-        middle.vf_rad = static_cast<float>(view_angle_rad(seen));
-        middle.row = coverage_row(pool_.viewer().walls(), pool_.viewer().pieces(), middle.at, seen,
-                                  pool_.viewer().visible_fraction());
+        Viewer::Look look = pool_.viewer().look(middle.at);
+        middle.vf_rad = static_cast<float>(look.vf_rad);
+        middle.row = std::move(look.row);
         if (middle.row.empty()) return false;
         if (!between(a, middle) || !between(middle, b)) return false;
         stands_.push_back(std::move(middle));

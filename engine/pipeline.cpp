@@ -228,8 +228,7 @@ std::string plan_again(const std::filesystem::path& path, const std::vector<std:
     }
     const Threads threads(thread_count);
     const RunDir dir(path);
-    (void)dir.config();  // says clearly when this is no run directory
-    const Config config = read_config(dir.file("job.toml"), overrides);
+    const Config config = dir.config(overrides);
     progress.stage("read");
     const FieldTable field = read_field(dir.file("field.h5"));
     const CoverageTables tables = read_coverage(dir.file("coverage.h5"));

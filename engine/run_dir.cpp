@@ -91,12 +91,12 @@ ClaimedFolder::~ClaimedFolder() {
     }
 }
 
-Config RunDir::config() const {
+Config RunDir::config(const std::vector<std::string>& overrides) const {
     if (!std::filesystem::exists(file("job.toml"))) {
         throw IoError(fmt::format("{}: no job.toml in it; give the folder of a finished run",
                                   path_.string()));
     }
-    return read_config(file("job.toml"), {});
+    return read_config(file("job.toml"), overrides);
 }
 
 }  // namespace vfplan

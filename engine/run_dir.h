@@ -32,8 +32,9 @@ public:
     // Writes job.toml. Throws IoError.
     void write_job(const Config& config, const JobKeys& keys) const;
 
-    // The configuration of a finished precompute or run. Throws IoError when it is none.
-    Config config() const;
+    // The configuration of a finished precompute or run, with overrides. Throws IoError when it is
+    // none.
+    Config config(const std::vector<std::string>& overrides = {}) const;
 
 private:
     std::string stored_key() const;

@@ -24,13 +24,8 @@ std::vector<Ring> forbidden_rings(const Config& config, const Site& site) {
     for (Feature& f : read_features(config.plan.forbidden,
                                     {SiteKind::outdoor, "", config.site.crs, config.site.unit_m})
                           .features) {
-        for (Polygon& p : f.polygons) {
-            for (Vec2d& v : p.outer) v -= site.origin;
-            for (Ring& hole : p.holes) {
-                for (Vec2d& v : hole) v -= site.origin;
-            }
-            polygons.push_back(std::move(p));
-        }
+        each_point(f, [&](Vec2d& v) { v -= site.origin; });
+        for (Polygon& p : f.polygons) polygons.push_back(std::move(p));
     }
     return rings_of_union(polygons, config.site.snap_m);
 }
@@ -57,30 +52,15 @@ double seconds_per_view(const Config& config, const Prepared& p) {
            static_cast<double>(std::max<std::int64_t>(1, views));
 }
 
-bool in_rings(const std::vector<Ring>& rings, const Vec2d& p) {
-    bool inside = false;
-    for (const Ring& ring : rings) {
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            const Vec2d& a = ring[i];
-            const Vec2d& b = ring[(i + 1) % ring.size()];
-            if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-            if (p.x() < a.x() + (b.x() - a.x()) * ((p.y() - a.y()) / (b.y() - a.y()))) {
-                inside = !inside;
-            }
-        }
-    }
-    return inside;
-}
-
 std::vector<Vec2d> in_site_frame(const std::vector<Vec2d>& points, const Site& site,
                                  const std::vector<Ring>& forbidden, const char* key) {
     std::vector<Vec2d> out;
     for (const Vec2d& point : points) {
         const Vec2d at = point - site.origin;
         const char* why = nullptr;
-        if (!site.extent.contains(at) || !in_rings(site.free_region, at)) {
+        if (!site.extent.contains(at) || !inside_odd(site.free_region, at)) {
             why = "it is not in free space";
-        } else if (in_rings(forbidden, at)) {
+        } else if (inside_odd(forbidden, at)) {
             why = "plan.forbidden covers it";
         }
         if (why != nullptr) {

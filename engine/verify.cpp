@@ -123,8 +123,7 @@ void check_connection(const CoverageTables& t, const PlanTable& table,
 // A spread of free cells, seen anew: the field there, and pieces that are said to have no
 // viewpoint.
 void check_field(const Viewer& viewer, const Threads& threads, const FieldTable& field,
-                 const CoverageTables& t, const Plan& plan, const std::string& kernel,
-                 Checks& checks) {
+                 const Plan& plan, const std::string& kernel, Checks& checks) {
     constexpr std::size_t sample = 1000;
     std::vector<std::int64_t> cells;
     for (std::int64_t c = 0; c < field.grid.size(); ++c) {
@@ -139,11 +138,10 @@ void check_field(const Viewer& viewer, const Threads& threads, const FieldTable&
         static_cast<std::int64_t>(chosen.size()), 8, [&](std::int64_t from, std::int64_t to) {
             for (std::int64_t i = from; i < to; ++i) {
                 const Vec2d eye = field.grid.centre(chosen[at(i)]);
-                const View seen = viewer.observed(eye);
-                error[at(i)] = std::abs(view_angle_rad(seen) -
-                                        static_cast<double>(field.vf_rad[at(chosen[at(i)])]));
-                for (const Seen& s :
-                     coverage_row(t.walls, t.pieces, eye, seen, viewer.visible_fraction())) {
+                const Viewer::Look look = viewer.look(eye);
+                error[at(i)] =
+                    std::abs(look.vf_rad - static_cast<double>(field.vf_rad[at(chosen[at(i)])]));
+                for (const Seen& s : look.row) {
                     if (plan.pieces[at(s.piece)] == PieceStatus::no_viewpoint) {
                         ++seen_after_all[at(i)];
                     }
@@ -242,7 +240,7 @@ VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Pro
 
     check_coverage(t, table.plan, rows, checks);
     check_connection(t, table, rows, checks);
-    check_field(viewer, threads, field, t, table.plan, config.visibility.kernel, checks);
+    check_field(viewer, threads, field, table.plan, config.visibility.kernel, checks);
     check_bound(t, table.plan, checks);
     progress.finish();
     return checks.result();

@@ -33,16 +33,19 @@ public:
     const ViewKernel& kernel() const { return kernel_; }
     double visible_fraction() const { return visible_fraction_; }
 
-    View observed(const Vec2d& eye) const {
+    // One view, read twice: VF and the coverage row.
+    struct Look {
+        double vf_rad = 0;
+        CoverageRow row;
+    };
+    Look look(const Vec2d& eye) const {
         View hits;
-        View out;
+        View seen;
         kernel_.first_hits(eye, hits);
-        observe(walls_, scanner_, eye, hits, out);
-        return out;
+        observe(walls_, scanner_, eye, hits, seen);
+        return {view_angle_rad(seen), coverage_row(walls_, pieces_, eye, seen, visible_fraction_)};
     }
-    CoverageRow row(const Vec2d& eye) const {
-        return coverage_row(walls_, pieces_, eye, observed(eye), visible_fraction_);
-    }
+    CoverageRow row(const Vec2d& eye) const { return look(eye).row; }
     // Rows of many eyes, in their order.
     std::vector<CoverageRow> rows(const Threads& threads, const std::vector<Vec2d>& eyes) const;
 

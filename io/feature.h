@@ -39,6 +39,20 @@ struct Feature {
     std::vector<Line> lines;
 };
 
+// Calls change(point) for every point of a feature.
+template <class F>
+void each_point(Feature& feature, F&& change) {
+    for (Polygon& p : feature.polygons) {
+        for (Vec2d& v : p.outer) change(v);
+        for (Ring& hole : p.holes) {
+            for (Vec2d& v : hole) change(v);
+        }
+    }
+    for (Line& line : feature.lines) {
+        for (Vec2d& v : line) change(v);
+    }
+}
+
 // All that was read from one file.
 struct FeatureSet {
     std::vector<Feature> features;

@@ -11,19 +11,6 @@
 namespace vfplan {
 namespace {
 
-template <class F>
-void each_point(Feature& f, F&& change) {
-    for (Polygon& p : f.polygons) {
-        for (Vec2d& v : p.outer) change(v);
-        for (Ring& hole : p.holes) {
-            for (Vec2d& v : hole) change(v);
-        }
-    }
-    for (Line& line : f.lines) {
-        for (Vec2d& v : line) change(v);
-    }
-}
-
 Box bounds(Feature& f) {
     Box box;
     each_point(f, [&](const Vec2d& v) { box.add(v); });

@@ -188,15 +188,7 @@ void collect(OGRGeometryH g, double unit_m, Feature& out) {
 template <class F>
 void each_point(FeatureSet& set, F&& f) {
     for (Feature& feature : set.features) {
-        for (Polygon& p : feature.polygons) {
-            for (Vec2d& v : p.outer) f(feature, v);
-            for (Ring& hole : p.holes) {
-                for (Vec2d& v : hole) f(feature, v);
-            }
-        }
-        for (Line& line : feature.lines) {
-            for (Vec2d& v : line) f(feature, v);
-        }
+        each_point(feature, [&](Vec2d& v) { f(feature, v); });
     }
 }
 

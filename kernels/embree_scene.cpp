@@ -183,14 +183,6 @@ EmbreeScene::EmbreeScene(const std::vector<Wall>& walls, const Box& around, doub
 
 EmbreeScene::~EmbreeScene() { rtcReleaseScene(impl_->scene); }
 
-std::int32_t EmbreeScene::first_wall(const Vec2d& eye, const Vec2d& direction) const {
-    const DenormalsOff scope;
-    const Vec2d unit = direction / direction.norm();
-    std::int32_t wall = -1;
-    impl_->trace(eye, &unit, 1, &wall);
-    return wall;
-}
-
 void EmbreeScene::first_hits(const Vec2d& eye, View& out) const {
     const Impl& m = *impl_;
     follow_transitions(

@@ -25,9 +25,6 @@ public:
 
     void first_hits(const Vec2d& eye, View& out) const override;
 
-    // The wall that a ray from `eye` meets first, -1 for none within reach.
-    std::int32_t first_wall(const Vec2d& eye, const Vec2d& direction) const;
-
 private:
     struct Impl;
     std::unique_ptr<Impl> impl_;

@@ -33,6 +33,21 @@ Grid make_grid(const Box& extent, double cell_m, double snap_m) {
     return grid;
 }
 
+bool inside_odd(const std::vector<Ring>& rings, const Vec2d& p) {
+    bool inside = false;
+    for (const Ring& ring : rings) {
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const Vec2d& a = ring[i];
+            const Vec2d& b = ring[(i + 1) % ring.size()];
+            if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+            if (p.x() < a.x() + (b.x() - a.x()) * ((p.y() - a.y()) / (b.y() - a.y()))) {
+                inside = !inside;
+            }
+        }
+    }
+    return inside;
+}
+
 Raster<std::uint8_t> free_cells(const Grid& grid, const std::vector<Ring>& free_region) {
     // Every edge flips all cells to the right of it in the rows whose centre it passes.
     Raster<std::uint8_t> flips(static_cast<std::size_t>(grid.size()), 0);

@@ -14,6 +14,9 @@ namespace vfplan {
 // along an axis.
 Grid make_grid(const Box& extent, double cell_m, double snap_m);
 
+// True inside an odd number of rings.
+bool inside_odd(const std::vector<Ring>& rings, const Vec2d& p);
+
 // 1 where the cell's centre lies inside an odd number of rings, else 0.
 // Time O(cells + edges x rows they span).
 Raster<std::uint8_t> free_cells(const Grid& grid, const std::vector<Ring>& free_region);

@@ -234,8 +234,7 @@ TEST(Candidates, ByYThenXAndTheUsersPointsLastAsGiven) {
         EXPECT_EQ(c.kind, i < 2 ? required : existing);
         EXPECT_EQ(c.at, i < 2 ? site.options.required[i] : site.options.existing[i - 2]);
         EXPECT_EQ(c.cell, -1);
-        EXPECT_FLOAT_EQ(c.vf_rad,
-                        static_cast<float>(view_angle_rad(site.world->viewer->observed(c.at))));
+        EXPECT_FLOAT_EQ(c.vf_rad, static_cast<float>(site.world->viewer->look(c.at).vf_rad));
         const CoverageRow row = site.world->viewer->row(c.at);
         EXPECT_EQ(r.table.begin[own + i + 1] - r.table.begin[own + i],
                   static_cast<std::int64_t>(row.size()));

@@ -88,8 +88,7 @@ void expect_free(const World& w, const CandidateResult& found) {
             EXPECT_NE(w.standable[at(c.cell)], 0);
             EXPECT_GT(w.field[at(c.cell)], 0);
         }
-        const View seen = w.viewer->observed(c.at);
-        EXPECT_EQ(c.vf_rad, static_cast<float>(view_angle_rad(seen)));
+        EXPECT_EQ(c.vf_rad, static_cast<float>(w.viewer->look(c.at).vf_rad));
         EXPECT_EQ(found.table.begin[i + 1] - found.table.begin[i],
                   static_cast<std::int64_t>(w.viewer->row(c.at).size()));
         EXPECT_FALSE(w.viewer->row(c.at).empty());
