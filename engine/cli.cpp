@@ -11,8 +11,8 @@
 #include "engine/pipeline.h"
 #include "engine/stop.h"
 #include "io/files.h"
-#include "kernels/embree_scene.h"
 #include "kernels/error.h"
+#include "kernels/isa.h"
 #include "vfplan_version.h"
 
 namespace vfplan {
@@ -35,7 +35,7 @@ All parameters: docs/parameters.md or vfplan parameters; any of them: --set scan
 constexpr const char* exit_codes =
     "Exit codes: 0 done; 1 verify said no; 2 usage or configuration; 3 input data; 4 reading or "
     "writing; 75 stopped early, resumable.\n"
-    "VFPLAN_EMBREE_ISA=sse2|avx2|avx512|... holds Embree to an instruction set.";
+    "VFPLAN_ISA=sse2|sse4.2|avx|avx2|avx512 holds the kernels to an instruction set.";
 
 // Options that several commands share.
 struct Shared {
@@ -115,7 +115,7 @@ int verify(const Shared& s) {
 
 int dispatch(int argc, char** argv) {
     watch_signals();
-    if (const char* isa = std::getenv("VFPLAN_EMBREE_ISA")) limit_embree_isa(isa);
+    if (const char* isa = std::getenv("VFPLAN_ISA")) limit_isa(isa);
     CLI::App app{
         "Plans connected networks of static-LiDAR stations from city maps and floor "
         "plans.",

@@ -195,10 +195,9 @@ Tables make_tables(const Config& config, const Prepared& p, const std::string& k
                               fraction);
 
     progress.stage("field", p.grid.size());
-    out.field = {p.grid,
-                 visibility_field(field_viewer, threads, p.grid, p.standable,
-                                  [&](std::int64_t n) { progress.advance(n); }),
-                 p.site.origin, p.site.crs_wkt, key};
+    FieldResult field = visibility_field(field_viewer, threads, p.grid, p.standable,
+                                         [&](std::int64_t n) { progress.advance(n); });
+    out.field = {p.grid, std::move(field.vf_rad), p.site.origin, p.site.crs_wkt, key};
 
     progress.stage("skeleton");
     const Raster<std::uint8_t> closed = closed_links(p.grid, p.standable, p.site.walls);

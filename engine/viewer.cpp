@@ -1,9 +1,11 @@
 #include "engine/viewer.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "kernels/embree_scene.h"
 #include "kernels/exact_scene.h"
+#include "kernels/index.h"
 
 namespace vfplan {
 
@@ -26,24 +28,27 @@ std::vector<CoverageRow> Viewer::rows(const Threads& threads,
     return out;
 }
 
-Raster<float> visibility_field(const Viewer& viewer, const Threads& threads, const Grid& grid,
-                               const Raster<std::uint8_t>& standable,
-                               const std::function<void(std::int64_t)>& progress) {
-    Raster<float> vf(standable.size(), std::numeric_limits<float>::quiet_NaN());
-    threads.for_each(grid.size(), 512, [&](std::int64_t from, std::int64_t to) {
-        View hits;
-        View seen;
-        for (std::int64_t cell = from; cell < to; ++cell) {
-            const auto i = static_cast<std::size_t>(cell);
-            if (standable[i] == 0) continue;
-            const Vec2d eye = grid.centre(cell);
-            viewer.kernel().first_hits(eye, hits);
-            observe(viewer.walls(), viewer.scanner(), eye, hits, seen);
-            vf[i] = static_cast<float>(view_angle_rad(seen));
+FieldResult visibility_field(const Viewer& viewer, const Threads& threads, const Grid& grid,
+                             const Raster<std::uint8_t>& standable,
+                             const std::function<void(std::int64_t)>& progress) {
+    FieldResult out;
+    out.vf_rad.assign(standable.size(), std::numeric_limits<float>::quiet_NaN());
+    const std::int32_t columns = (grid.nx + window_cells - 1) / window_cells;
+    const std::int32_t rows = (grid.ny + window_cells - 1) / window_cells;
+    std::vector<FieldCounts> counts(at(columns) * at(rows));
+    threads.for_each(std::int64_t{columns} * rows, 1, [&](std::int64_t from, std::int64_t to) {
+        for (std::int64_t w = from; w < to; ++w) {
+            const auto x = static_cast<std::int32_t>(w % columns) * window_cells;
+            const auto y = static_cast<std::int32_t>(w / columns) * window_cells;
+            const Window window{x, y, std::min(x + window_cells, grid.nx),
+                                std::min(y + window_cells, grid.ny)};
+            counts[at(w)] =
+                viewer.kernel().field(viewer.scanner(), grid, window, standable, out.vf_rad);
+            progress(std::int64_t{window.x_end - window.x_begin} * (window.y_end - window.y_begin));
         }
-        progress(to - from);
     });
-    return vf;
+    for (const FieldCounts& c : counts) out.counts += c;
+    return out;
 }
 
 }  // namespace vfplan

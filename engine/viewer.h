@@ -57,9 +57,16 @@ private:
     double visible_fraction_;
 };
 
+struct FieldResult {
+    Raster<float> vf_rad;
+    FieldCounts counts;
+};
+
+inline constexpr std::int32_t window_cells = 32;  // side of the windows that threads take
+
 // VF of every cell with standable != 0, NaN elsewhere. `progress` hears the number of cells done.
-Raster<float> visibility_field(const Viewer& viewer, const Threads& threads, const Grid& grid,
-                               const Raster<std::uint8_t>& standable,
-                               const std::function<void(std::int64_t)>& progress);
+FieldResult visibility_field(const Viewer& viewer, const Threads& threads, const Grid& grid,
+                             const Raster<std::uint8_t>& standable,
+                             const std::function<void(std::int64_t)>& progress);
 
 }  // namespace vfplan

@@ -193,14 +193,25 @@ void EmbreeScene::first_hits(const Vec2d& eye, View& out) const {
         out);
 }
 
-void limit_embree_isa(const std::string& isa) {
-    constexpr std::array<const char*, 5> known = {"sse2", "sse4.2", "avx", "avx2", "avx512"};
-    if (std::find(known.begin(), known.end(), isa) == known.end()) {
-        throw UsageError("VFPLAN_EMBREE_ISA = " + isa +
-                         ": must be sse2, sse4.2, avx, avx2 or avx512");
+FieldCounts EmbreeScene::field(const Scanner& scanner, const Grid& grid, const Window& window,
+                               const Raster<std::uint8_t>& standable, Raster<float>& vf_rad) const {
+    View hits;
+    View seen;
+    FieldCounts counts;
+    for (std::int32_t iy = window.y_begin; iy < window.y_end; ++iy) {
+        for (std::int32_t ix = window.x_begin; ix < window.x_end; ++ix) {
+            const auto i = static_cast<std::size_t>(grid.id(ix, iy));
+            if (standable[i] == 0) continue;
+            const Vec2d eye = grid.centre(grid.id(ix, iy));
+            first_hits(eye, hits);
+            observe(impl_->walls, scanner, eye, hits, seen);
+            vf_rad[i] = static_cast<float>(view_angle_rad(seen));
+        }
     }
-    device_settings() = "isa=" + isa;
+    return counts;
 }
+
+void limit_embree_isa(const std::string& isa) { device_settings() = "isa=" + isa; }
 
 int default_rays(double range_max_m, double partition_m) {
     const double wanted = 2 * pi * range_max_m / (2.5 * partition_m);

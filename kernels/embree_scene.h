@@ -24,14 +24,15 @@ public:
     EmbreeScene& operator=(const EmbreeScene&) = delete;
 
     void first_hits(const Vec2d& eye, View& out) const override;
+    FieldCounts field(const Scanner& scanner, const Grid& grid, const Window& window,
+                      const Raster<std::uint8_t>& standable, Raster<float>& vf_rad) const override;
 
 private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
 
-// Holds Embree to an older instruction set (sse2, sse4.2, avx, avx2, avx512), to show that the
-// results do not depend on it. Call before the first scene. Throws UsageError for another name.
+// See limit_isa(). REQUIRES: one of its names.
 void limit_embree_isa(const std::string& isa);
 
 // How many directions keep neighbouring rays within 2.5 pieces of each other at full range: 128 to

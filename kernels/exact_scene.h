@@ -2,10 +2,10 @@
 // double precision. Every end of every span is a wall's end or the shadow of one.
 #pragma once
 
-#include <memory>
 #include <vector>
 
-#include "kernels/triangulation.h"
+#include "kernels/expansion.h"
+#include "kernels/locator.h"
 #include "kernels/view.h"
 
 namespace vfplan {
@@ -15,23 +15,18 @@ public:
     // `around`: where eyes may stand. Walls farther than reach_m from an eye are not looked for.
     // Throws InputError when walls cross (see triangulate()).
     ExactScene(const std::vector<Wall>& walls, const Box& around, double reach_m);
+    ExactScene(const ExactScene&) = delete;
+    ExactScene& operator=(const ExactScene&) = delete;
 
     void first_hits(const Vec2d& eye, View& out) const override;
+    FieldCounts field(const Scanner& scanner, const Grid& grid, const Window& window,
+                      const Raster<std::uint8_t>& standable, Raster<float>& vf_rad) const override;
 
 private:
-    std::int32_t locate(const Vec2d& eye) const;
-    bool walk(std::int32_t from, const Vec2d& eye, std::int32_t& found) const;
-    void emit(const Vec2d& eye, std::int32_t wall, std::int32_t right_vertex,
-              std::int32_t left_vertex, View& out) const;
-
     std::vector<Wall> walls_;
-    Triangulation mesh_;
+    Expansion expansion_;
+    TriangleLocator locator_;
     double reach_m_ = 0;
-    // A triangle to start the walk from, for each square of a coarse grid.
-    Vec2d seeds_origin_{0, 0};
-    double seeds_cell_m_ = 1;
-    std::int32_t seeds_nx_ = 0;
-    std::vector<std::int32_t> seeds_;
 };
 
 }  // namespace vfplan

@@ -30,6 +30,14 @@ struct Grid {
     }
 };
 
+// Cells (ix, iy) with x_begin <= ix < x_end and y_begin <= iy < y_end.
+struct Window {
+    std::int32_t x_begin = 0;
+    std::int32_t y_begin = 0;
+    std::int32_t x_end = 0;
+    std::int32_t y_end = 0;
+};
+
 // One value per cell, in the order of Grid::id.
 template <class T>
 using Raster = std::vector<T>;

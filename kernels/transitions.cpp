@@ -1,7 +1,8 @@
 #include "kernels/transitions.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "kernels/shadow.h"
 
 namespace vfplan {
 namespace {
@@ -40,12 +41,7 @@ public:
     }
     // Metres from wall.a to where the ray d meets the wall's line, kept on the wall.
     double metres_at(std::int32_t id, const Vec2d& d) const {
-        const Wall& w = wall(id);
-        const double length = w.length_m();
-        if (d == w.a - eye_) return 0;
-        if (d == w.b - eye_) return length;
-        const double u = cross(w.a - eye_, d) / cross(d, w.b - w.a);
-        return length * std::clamp(u, 0.0, 1.0);
+        return shadow_m(wall(id), wall(id).length_m(), eye_, d);
     }
 
 private:

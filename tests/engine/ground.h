@@ -47,7 +47,7 @@ struct World {
         pieces = cut_into_pieces(walls, s.partition_m);
         kernel = kernel_named("exact", walls, box, s.scanner.range_max_m);
         viewer = std::make_unique<Viewer>(*kernel, walls, pieces, s.scanner, s.visible_fraction);
-        field = visibility_field(*viewer, Threads(1), grid, standable, [](std::int64_t) {});
+        field = visibility_field(*viewer, Threads(1), grid, standable, [](std::int64_t) {}).vf_rad;
         domain.resize(standable.size());
         for (std::size_t i = 0; i < domain.size(); ++i) {
             domain[i] = standable[i] != 0 && closed[i] == 0 &&

@@ -118,6 +118,10 @@ TEST(Splitting, RingsAreSplitAllTheWayRound) {
 class Blind final : public ViewKernel {
 public:
     void first_hits(const Vec2d&, View& out) const override { out.clear(); }
+    FieldCounts field(const Scanner&, const Grid&, const Window&, const Raster<std::uint8_t>&,
+                      Raster<float>&) const override {
+        return {};
+    }
 };
 
 // What splitting a row of `cells` does when nothing ever overlaps.
