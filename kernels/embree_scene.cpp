@@ -5,20 +5,18 @@
 #include <xmmintrin.h>
 
 #include <algorithm>
-#include <array>
-#include <cassert>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "kernels/angle.h"
+#include "kernels/block_field.h"
 #include "kernels/error.h"
+#include "kernels/index.h"
 #include "kernels/transitions.h"
+#include "kernels/wall_test.h"
 
 namespace vfplan {
 namespace {
-
-constexpr int packet_size = 16;
 
 // Embree wants denormals off while it traces; CGAL must never see that, so it ends with the scope.
 class DenormalsOff {
@@ -47,20 +45,18 @@ RTCDevice device() {
     return d;
 }
 
-// A ray packet in double precision, beside Embree's own float one. `base` must come first: Embree
-// hands back a pointer to it.
-struct Packet {
+// Embree hands back a pointer to `base`, so it must come first. Its own rays are floats; the
+// packet holds the same ones as doubles.
+struct Context {
     RTCIntersectContext base;
-    Vec2d eye;
-    std::array<Vec2d, packet_size> direction;
-    std::array<double, packet_size> nearest;
-    std::array<std::int32_t, packet_size> wall;
+    RayPacket packet;
 };
 
 struct Segments {
     const std::vector<Wall>* walls;
     Vec2d local_origin;
     float padding_m;
+    WallTest test;
 };
 
 void wall_bounds(const RTCBoundsFunctionArguments* args) {
@@ -77,84 +73,109 @@ void wall_bounds(const RTCBoundsFunctionArguments* args) {
     b.upper_z = 1;
 }
 
+// All 16 rays at once where the processor can, else the four or eight that Embree is at. Rays that
+// Embree masks out are tested with the others: a hit is a hit.
 void wall_intersect(const RTCIntersectFunctionNArguments* args) {
     const auto& s = *static_cast<const Segments*>(args->geometryUserPtr);
-    const Wall& w = (*s.walls)[args->primID];
-    Packet& packet = *reinterpret_cast<Packet*>(args->context);
-    const auto id = static_cast<std::int32_t>(args->primID);
-    RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
-    RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, args->N);
-    const Vec2d to_a = w.a - packet.eye;
-    const Vec2d e = w.b - w.a;
-    const double reach = cross(to_a, e);
-    for (unsigned i = 0; i < args->N; ++i) {
-        if (args->valid[i] == 0) continue;
-        const std::size_t k = RTCRayN_id(ray, args->N, i);
-        const Vec2d& d = packet.direction[k];
-        const double den = cross(d, e);
-        if (den == 0) continue;
-        const double u = cross(to_a, d) / den;
-        if (!(u >= 0 && u <= 1)) continue;
-        const double t = reach / den;
-        if (!(t > 0) || t > packet.nearest[k]) continue;
-        if (t == packet.nearest[k] && packet.wall[k] >= 0 && packet.wall[k] < id) continue;
-        packet.nearest[k] = t;
-        packet.wall[k] = id;
-        // A little beyond, so that boxes with an equally near wall are still opened.
-        RTCRayN_tfar(ray, args->N, i) = static_cast<float>(t) * 1.000001F + s.padding_m;
-        RTCHitN_primID(hit, args->N, i) = args->primID;
-        RTCHitN_geomID(hit, args->N, i) = args->geomID;
+    RayPacket& packet = reinterpret_cast<Context*>(args->context)->packet;
+    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
+    const std::size_t first = RTCRayN_id(rays, args->N, 0);
+    s.test((*s.walls)[args->primID], static_cast<std::int32_t>(args->primID), s.padding_m, first,
+           args->N, packet);
+    float* far_m = &RTCRayN_tfar(rays, args->N, 0);
+    if (args->N == packet_rays) {
+        std::copy_n(packet.far_m.data(), packet_rays, far_m);
+    } else {
+        std::copy_n(&packet.far_m[first], args->N, far_m);
     }
 }
+
+class EmbreeTracer final : public RayTracer {
+public:
+    EmbreeTracer(const Segments& segments, RTCScene scene, double reach_m)
+        : segments_(segments),
+          scene_(scene),
+          reach_m_(reach_m),
+          far_m_(static_cast<float>(reach_m) * 1.000001F + segments.padding_m) {
+        rtcInitIntersectContext(&context_.base);
+        context_.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        for (std::size_t i = 0; i < packet_rays; ++i) {
+            rays_.ray.mask[i] = ~0U;
+            rays_.ray.id[i] = static_cast<unsigned>(i);
+            rays_.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        }
+    }
+
+    void set_eyes(const PerRay<Vec2d>& eyes, std::size_t count) override {
+        set_eyes(eyes.data(), count);
+    }
+
+    void along(const Vec2d& direction, PerRay<std::int32_t>& wall) override {
+        context_.packet.direction_x.fill(direction.x());
+        context_.packet.direction_y.fill(direction.y());
+        std::fill_n(rays_.ray.dir_x, packet_rays, static_cast<float>(direction.x()));
+        std::fill_n(rays_.ray.dir_y, packet_rays, static_cast<float>(direction.y()));
+        shoot(wall.data(), packet_rays);
+    }
+
+    void trace(const Vec2d* eyes, const Vec2d* directions, std::size_t count,
+               std::int32_t* wall) override {
+        set_eyes(eyes, count);
+        for (std::size_t i = 0; i < packet_rays; ++i) {
+            const Vec2d& d = directions[std::min(i, count - 1)];
+            context_.packet.direction_x[i] = d.x();
+            context_.packet.direction_y[i] = d.y();
+            rays_.ray.dir_x[i] = static_cast<float>(d.x());
+            rays_.ray.dir_y[i] = static_cast<float>(d.y());
+        }
+        shoot(wall, count);
+    }
+
+private:
+    // Places that no eye takes are masked out, and filled so that no lane meets odd numbers.
+    void set_eyes(const Vec2d* eyes, std::size_t count) {
+        for (std::size_t i = 0; i < packet_rays; ++i) {
+            const Vec2d& eye = eyes[std::min(i, count - 1)];
+            const Vec2d local = eye - segments_.local_origin;
+            context_.packet.eye_x[i] = eye.x();
+            context_.packet.eye_y[i] = eye.y();
+            rays_.ray.org_x[i] = static_cast<float>(local.x());
+            rays_.ray.org_y[i] = static_cast<float>(local.y());
+            valid_[i] = i < count ? -1 : 0;
+        }
+    }
+
+    void shoot(std::int32_t* wall, std::size_t count) {
+        context_.packet.nearest_m.fill(reach_m_);
+        context_.packet.wall.fill(-1);
+        context_.packet.far_m.fill(far_m_);
+        std::fill_n(rays_.ray.tfar, packet_rays, far_m_);
+        rtcIntersect16(valid_.data(), scene_, &context_.base, &rays_);
+        for (std::size_t i = 0; i < count; ++i) {
+            wall[i] = static_cast<std::int32_t>(context_.packet.wall[i]);
+        }
+    }
+
+    const Segments& segments_;
+    RTCScene scene_;
+    double reach_m_;
+    float far_m_;
+    Context context_;
+    alignas(64) RTCRayHit16 rays_{};
+    alignas(64) PerRay<int> valid_{};
+};
 
 }  // namespace
 
 struct EmbreeScene::Impl {
     std::vector<Wall> walls;
+    std::unique_ptr<WallEnds> ends;
     Segments segments{};
     double reach_m = 0;
     std::vector<Vec2d> directions;
     RTCScene scene = nullptr;
 
-    // The first walls along up to packet_size directions.
-    void trace(const Vec2d& eye, const Vec2d* direction, std::size_t count,
-               std::int32_t* wall) const {
-        assert(count <= packet_size);
-        Packet packet;
-        rtcInitIntersectContext(&packet.base);
-        packet.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        packet.eye = eye;
-        alignas(64) std::array<int, packet_size> valid{};
-        alignas(64) RTCRayHit16 rays{};
-        const Vec2d local = eye - segments.local_origin;
-        for (std::size_t i = 0; i < packet_size; ++i) {
-            const Vec2d& d = direction[std::min(i, count - 1)];
-            valid[i] = i < count ? -1 : 0;
-            packet.direction[i] = d;
-            packet.nearest[i] = reach_m;
-            packet.wall[i] = -1;
-            rays.ray.org_x[i] = static_cast<float>(local.x());
-            rays.ray.org_y[i] = static_cast<float>(local.y());
-            rays.ray.dir_x[i] = static_cast<float>(d.x());
-            rays.ray.dir_y[i] = static_cast<float>(d.y());
-            rays.ray.tfar[i] = static_cast<float>(reach_m) * 1.000001F + segments.padding_m;
-            rays.ray.mask[i] = ~0U;
-            rays.ray.id[i] = static_cast<unsigned>(i);
-            rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-        }
-        rtcIntersect16(valid.data(), scene, &packet.base, &rays);
-        std::copy_n(packet.wall.begin(), count, wall);
-    }
-
-    void trace_all(const Vec2d& eye, const std::vector<Vec2d>& direction,
-                   std::vector<std::int32_t>& wall) const {
-        const DenormalsOff scope;
-        wall.resize(direction.size());
-        for (std::size_t i = 0; i < direction.size(); i += packet_size) {
-            trace(eye, &direction[i], std::min<std::size_t>(packet_size, direction.size() - i),
-                  &wall[i]);
-        }
-    }
+    EmbreeTracer tracer() const { return {segments, scene, reach_m}; }
 };
 
 EmbreeScene::EmbreeScene(const std::vector<Wall>& walls, const Box& around, double reach_m,
@@ -162,12 +183,13 @@ EmbreeScene::EmbreeScene(const std::vector<Wall>& walls, const Box& around, doub
     : impl_(std::make_unique<Impl>()) {
     Impl& m = *impl_;
     m.walls = walls;
+    m.ends = std::make_unique<WallEnds>(m.walls);
     m.reach_m = reach_m;
     m.directions = circle_directions(rays);
     const Vec2d middle = (around.min + around.max) / 2;
     // Float keeps 24 bits: pad the boxes by what it loses at this size, and by a millimetre.
     const double size = around.size().norm() + reach_m;
-    m.segments = {&m.walls, middle, static_cast<float>(1e-3 + 4e-7 * size)};
+    m.segments = {&m.walls, middle, static_cast<float>(1e-3 + 4e-7 * size), wall_test()};
     m.scene = rtcNewScene(device());
     rtcSetSceneFlags(m.scene, RTC_SCENE_FLAG_ROBUST);
     const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER);
@@ -185,27 +207,46 @@ EmbreeScene::~EmbreeScene() { rtcReleaseScene(impl_->scene); }
 
 void EmbreeScene::first_hits(const Vec2d& eye, View& out) const {
     const Impl& m = *impl_;
+    EmbreeTracer tracer = m.tracer();
+    const std::vector<Vec2d> eyes(packet_rays, eye);
     follow_transitions(
         m.walls, eye, m.directions,
         [&](const std::vector<Vec2d>& d, std::vector<std::int32_t>& wall) {
-            m.trace_all(eye, d, wall);
+            const DenormalsOff scope;
+            wall.resize(d.size());
+            for (std::size_t i = 0; i < d.size(); i += packet_rays) {
+                tracer.trace(eyes.data(), &d[i], std::min(packet_rays, d.size() - i), &wall[i]);
+            }
         },
         out);
 }
 
 FieldCounts EmbreeScene::field(const Scanner& scanner, const Grid& grid, const Window& window,
                                const Raster<std::uint8_t>& standable, Raster<float>& vf_rad) const {
-    View hits;
-    View seen;
+    const Impl& m = *impl_;
+    const DenormalsOff scope;
+    EmbreeTracer tracer = m.tracer();
+    BlockField block(m.walls, *m.ends, scanner, m.directions, tracer);
     FieldCounts counts;
-    for (std::int32_t iy = window.y_begin; iy < window.y_end; ++iy) {
-        for (std::int32_t ix = window.x_begin; ix < window.x_end; ++ix) {
-            const auto i = static_cast<std::size_t>(grid.id(ix, iy));
-            if (standable[i] == 0) continue;
-            const Vec2d eye = grid.centre(grid.id(ix, iy));
-            first_hits(eye, hits);
-            observe(impl_->walls, scanner, eye, hits, seen);
-            vf_rad[i] = static_cast<float>(view_angle_rad(seen));
+    PerRay<Vec2d> eyes;
+    PerRay<std::int64_t> cells{};
+    PerRay<double> vf{};
+    for (std::int32_t y = window.y_begin; y < window.y_end; y += window_step) {
+        for (std::int32_t x = window.x_begin; x < window.x_end; x += window_step) {
+            std::size_t count = 0;
+            for (std::int32_t iy = y; iy < std::min(y + window_step, window.y_end); ++iy) {
+                for (std::int32_t ix = x; ix < std::min(x + window_step, window.x_end); ++ix) {
+                    const std::int64_t cell = grid.id(ix, iy);
+                    if (standable[at(cell)] == 0) continue;
+                    eyes[count] = grid.centre(cell);
+                    cells[count++] = cell;
+                }
+            }
+            if (count == 0) continue;
+            block.angles(eyes, count, vf, counts);
+            for (std::size_t i = 0; i < count; ++i) {
+                vf_rad[at(cells[i])] = static_cast<float>(vf[i]);
+            }
         }
     }
     return counts;
@@ -214,7 +255,7 @@ FieldCounts EmbreeScene::field(const Scanner& scanner, const Grid& grid, const W
 void limit_embree_isa(const std::string& isa) { device_settings() = "isa=" + isa; }
 
 int default_rays(double range_max_m, double partition_m) {
-    const double wanted = 2 * pi * range_max_m / (2.5 * partition_m);
+    const double wanted = 2 * pi * range_max_m / (3 * partition_m);
     int rays = 128;
     while (rays < 512 && rays < wanted) rays *= 2;
     return rays;

@@ -35,8 +35,8 @@ private:
 // See limit_isa(). REQUIRES: one of its names.
 void limit_embree_isa(const std::string& isa);
 
-// How many directions keep neighbouring rays within 2.5 pieces of each other at full range: 128 to
-// 512, where wall ends take over.
+// How many directions keep neighbouring rays within three pieces of each other at full range: 128
+// to 512, where wall ends take over.
 int default_rays(double range_max_m, double partition_m);
 
 }  // namespace vfplan
