@@ -35,6 +35,13 @@ std::uint32_t differing(const PerRay<std::int32_t>& p, const PerRay<std::int32_t
     return 0xffffU & ~static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(low, high)));
 }
 
+// One bit for each ray that met nothing.
+std::uint32_t open(const PerRay<std::int32_t>& p) {
+    PerRay<std::int32_t> nothing;
+    nothing.fill(-1);
+    return 0xffffU & ~differing(p, nothing);
+}
+
 // A wall's ends as the eye sees them: clockwise-most and counter-clockwise-most.
 struct Ends {
     Vec2d begin;
@@ -80,8 +87,9 @@ BlockField::BlockField(const std::vector<Wall>& walls, const WallEnds& ends, con
       tan_limit_(tan_incidence(scanner)),
       max2_(scanner.range_max_m * scanner.range_max_m),
       min2_(scanner.range_min_m * scanner.range_min_m),
-      step_rad_(2 * pi / static_cast<double>(directions.size())),
-      met_(directions.size()) {}
+      rays_(static_cast<std::int32_t>(directions.size() / packet_rays)),
+      step_rad_(2 * pi / rays_),
+      met_(at(rays_)) {}
 
 // What is observed of a wall, when nothing hides it.
 void BlockField::cut_into_parts(std::int32_t wall, const Vec2d& eye) {
@@ -166,7 +174,7 @@ void BlockField::begin_run(std::int32_t wall, std::int32_t ray, std::uint32_t ey
     run.mixed = false;
     run.whole = whole(wall, eyes_[eye], run.at_end);
     if (!run.whole) {
-        run.at_end = stretch(wall, eyes_[eye], directions_[at(ray)], run.mixed);
+        run.at_end = stretch(wall, eyes_[eye], direction(ray, eye), run.mixed);
     }
 }
 
@@ -177,8 +185,8 @@ void BlockField::end_run(Run& run, std::int32_t last, std::uint32_t eye) {
         if (!run.at_end.observed) unobserved_rad_[eye] += step_rad_ * (last - run.first);
         return;
     }
-    const Vec2d& begin = directions_[at(run.first)];
-    const Vec2d& end = directions_[at(last)];
+    const Vec2d& begin = direction(run.first, eye);
+    const Vec2d& end = direction(last, eye);
     bool mixed = false;
     run.at_end = stretch(run.wall, eyes_[eye], end, mixed);
     double rad = angle_rad(begin, end);
@@ -193,8 +201,8 @@ void BlockField::end_run(Run& run, std::int32_t last, std::uint32_t eye) {
 // What lies between ray - 1, the last of its run, and `ray`, the first of the next.
 void BlockField::between_runs(std::uint32_t eye, std::int32_t ray, const Run& run,
                               const Run& next) {
-    const Vec2d& a = directions_[ray == 0 ? directions_.size() - 1 : at(ray - 1)];
-    const Vec2d& b = directions_[at(ray)];
+    const Vec2d& a = direction(ray == 0 ? rays_ - 1 : ray - 1, eye);
+    const Vec2d& b = direction(ray, eye);
     if (run.at_end.observed && next.at_end.observed) {
         if (cross(run.at_end.to, b) <= 0 || cross(a, next.at_end.from) <= 0 ||
             cross(run.at_end.to, next.at_end.from) <= 0) {
@@ -211,7 +219,7 @@ void BlockField::between_runs(std::uint32_t eye, std::int32_t ray, const Run& ru
         if (cross(before.to, after.from) <= 0) return;
         extend_from(after, eyes_[eye], before.to);
         if (cross(before.to, after.from) <= 0) return;
-        gaps_.push_back({eye, true, true, -1, before.to, after.from});
+        gaps_.push_back({eye, ray, true, true, -1, before.to, after.from});
         return;
     }
     if (before.observed) {
@@ -220,9 +228,9 @@ void BlockField::between_runs(std::uint32_t eye, std::int32_t ray, const Run& ru
         extend_from(after, eyes_[eye], a);
     }
     if (before.observed && cross(before.to, b) > 0) {
-        gaps_.push_back({eye, true, false, next.wall, before.to, b});
+        gaps_.push_back({eye, ray, true, false, next.wall, before.to, b});
     } else if (after.observed && cross(a, after.from) > 0) {
-        gaps_.push_back({eye, false, true, run.wall, a, after.from});
+        gaps_.push_back({eye, ray, false, true, run.wall, a, after.from});
     } else {
         // Something that is not observed stands in front: it begins, or ends, in between.
         const Ends ends(walls_[at(before.observed ? next.wall : run.wall)], eyes_[eye]);
@@ -235,19 +243,74 @@ void BlockField::between_runs(std::uint32_t eye, std::int32_t ray, const Run& ru
     }
 }
 
-void BlockField::look_at_rays(std::size_t count) {
+const Vec2d& BlockField::direction(std::int32_t ray, std::uint32_t eye) const {
+    return directions_[packet_rays * at(ray) + eye];
+}
+
+// How much of the directions from `a` to `b`, between rays `ray` - 1 and `ray`, no wall covers that
+// other eyes of the block met about there.
+double BlockField::uncovered_rad(std::uint32_t eye, std::int32_t ray, const Vec2d& a,
+                                 const Vec2d& b) {
+    in_sky_.clear();
+    std::array<std::int32_t, 2 * packet_rays> tried;
+    std::size_t tries = 0;
+    for (const std::int32_t r : {ray == 0 ? rays_ - 1 : ray - 1, ray}) {
+        for (std::size_t i = 0; i < count_; ++i) {
+            const std::int32_t wall = met_[at(r)][i];
+            if (wall < 0 ||
+                std::find(tried.begin(), tried.begin() + tries, wall) != tried.begin() + tries) {
+                continue;
+            }
+            tried[tries++] = wall;
+            Stretch s;
+            if (!whole(wall, eyes_[eye], s) || cross(s.from, b) <= 0 || cross(a, s.to) <= 0) {
+                continue;
+            }
+            extend_from(s, eyes_[eye], a);
+            extend_to(s, eyes_[eye], b);
+            in_sky_.push_back(s);
+        }
+    }
+    double rad = angle_rad(a, b);
+    if (in_sky_.empty()) return rad;
+    std::sort(in_sky_.begin(), in_sky_.end(),
+              [](const Stretch& p, const Stretch& q) { return cross(p.from, q.from) > 0; });
+    Vec2d reached = a;
+    for (const Stretch& s : in_sky_) {
+        const Vec2d from = cross(reached, s.from) > 0 ? s.from : reached;
+        const Vec2d to = cross(s.to, b) > 0 ? s.to : b;
+        if (cross(from, to) <= 0) continue;
+        rad -= angle_rad(from, to);
+        reached = to;
+    }
+    return rad;
+}
+
+// Eyes whose rays `ray` - 1 and `ray` met nothing, while other eyes' rays met walls.
+void BlockField::look_into_sky(std::int32_t ray, std::uint32_t all) {
+    const std::int32_t ray_before = ray == 0 ? rays_ - 1 : ray - 1;
+    const std::uint32_t sky = all & open(met_[at(ray_before)]) & open(met_[at(ray)]);
+    if (sky == all) return;
+    for (std::uint32_t eyes = sky; eyes != 0; eyes &= eyes - 1) {
+        const auto k = static_cast<std::uint32_t>(std::countr_zero(eyes));
+        unobserved_rad_[k] +=
+            uncovered_rad(k, ray, direction(ray_before, k), direction(ray, k)) - step_rad_;
+    }
+}
+
+void BlockField::look_at_rays() {
     PerRay<Run> first;
     PerRay<Run> run;
-    for (std::uint32_t k = 0; k < count; ++k) {
+    for (std::uint32_t k = 0; k < count_; ++k) {
         begin_run(met_[0][k], 0, k, run[k]);
         first[k] = run[k];
     }
-    const auto rays = static_cast<std::int32_t>(directions_.size());
-    const std::uint32_t all = (1U << count) - 1;
-    for (std::int32_t i = 1; i < rays; ++i) {
+    const std::uint32_t all = (1U << count_) - 1;
+    for (std::int32_t i = 1; i < rays_; ++i) {
         const PerRay<std::int32_t>& is = met_[at(i)];
-        for (std::uint32_t bits = all & differing(met_[at(i - 1)], is); bits != 0;
-             bits &= bits - 1) {
+        const PerRay<std::int32_t>& was = met_[at(i - 1)];
+        look_into_sky(i, all);
+        for (std::uint32_t bits = all & differing(was, is); bits != 0; bits &= bits - 1) {
             const auto k = static_cast<std::uint32_t>(std::countr_zero(bits));
             Stretch stretch_here;
             if (run[k].whole && whole(is[k], eyes_[k], stretch_here) &&
@@ -264,8 +327,9 @@ void BlockField::look_at_rays(std::size_t count) {
             run[k] = next;
         }
     }
-    for (std::uint32_t k = 0; k < count; ++k) {
-        end_run(run[k], rays - 1, k);
+    look_into_sky(0, all);
+    for (std::uint32_t k = 0; k < count_; ++k) {
+        end_run(run[k], rays_ - 1, k);
         between_runs(k, 0, run[k], first[k]);
     }
 }
@@ -353,7 +417,7 @@ void BlockField::follow_gaps(FieldCounts& counts) {
         const auto done = [&](const Gap& gap) {
             if (gap.closed || cross(gap.from, gap.to) <= 0) return true;
             if (gap.open_from || gap.open_to) return false;
-            unobserved_rad_[gap.eye] += angle_rad(gap.from, gap.to);
+            unobserved_rad_[gap.eye] += uncovered_rad(gap.eye, gap.ray, gap.from, gap.to);
             return true;
         };
         gaps_.erase(std::remove_if(gaps_.begin(), gaps_.end(), done), gaps_.end());
@@ -365,14 +429,17 @@ void BlockField::follow_gaps(FieldCounts& counts) {
 void BlockField::angles(const PerRay<Vec2d>& eyes, std::size_t count, PerRay<double>& vf_rad,
                         FieldCounts& counts) {
     eyes_ = eyes;
+    count_ = count;
     unobserved_rad_.fill(0);
     gaps_.clear();
     tracer_.set_eyes(eyes, count);
-    for (std::size_t i = 0; i < directions_.size(); ++i) tracer_.along(directions_[i], met_[i]);
-    look_at_rays(count);
+    for (std::size_t i = 0; i < met_.size(); ++i) {
+        tracer_.along(&directions_[packet_rays * i], met_[i]);
+    }
+    look_at_rays();
     counts.cells += static_cast<std::int64_t>(count);
-    counts.packets += static_cast<std::int64_t>(directions_.size());
-    counts.steps += static_cast<std::int64_t>(directions_.size() * count);
+    counts.packets += rays_;
+    counts.steps += rays_ * static_cast<std::int64_t>(count);
     follow_gaps(counts);
     for (std::size_t i = 0; i < count; ++i) {
         vf_rad[i] = std::clamp(2 * pi - unobserved_rad_[i], 0.0, 2 * pi);

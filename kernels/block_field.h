@@ -26,11 +26,19 @@ private:
 // from its end. Rays are added only into the gaps that remain, past the ends that border them,
 // until what they meet closes the gap or is not observed.
 //
-// What it may miss is thinner than the directions are apart.
+// Each eye looks along its own directions, turned a little against its neighbours', so that the
+// block as a whole looks 16 times closer. What one eye meets, in range from end to end, the others
+// observe too or something before it: walls between two of their rays that met nothing count.
+//
+// That whatever stands nearer is observed in its turn does not hold for walls that are not scanned,
+// nearer than range_min or met too obliquely: they are known where rays meet them.
+//
+// What it may miss is thinner than the block's directions are apart, or than one eye's where no
+// other eye meets it.
 class BlockField {
 public:
-    // `directions`: unit vectors counter-clockwise once round, evenly spread, at least 16.
-    // Refers to all of its arguments.
+    // `directions`: unit vectors counter-clockwise once round, evenly spread: 16 for each ray that
+    // an eye casts, at least 256. Refers to all of its arguments.
     BlockField(const std::vector<Wall>& walls, const WallEnds& ends, const Scanner& scanner,
                const std::vector<Vec2d>& directions, RayTracer& tracer);
 
@@ -60,6 +68,7 @@ private:
     // where `open_from` (`open_to`) says so.
     struct Gap {
         std::uint32_t eye;
+        std::int32_t ray;       // it lies between rays `ray` - 1 and `ray`
         bool open_from;         // `from` is the end of something observed; look past it
         bool open_to;           // `to` is the beginning of something observed; look before it
         std::int32_t occluder;  // the wall met at the other border, not observed; -1 for none
@@ -76,7 +85,10 @@ private:
     void begin_run(std::int32_t wall, std::int32_t ray, std::uint32_t eye, Run& run);
     void end_run(Run& run, std::int32_t last, std::uint32_t eye);
     void between_runs(std::uint32_t eye, std::int32_t ray, const Run& run, const Run& next);
-    void look_at_rays(std::size_t count);
+    const Vec2d& direction(std::int32_t ray, std::uint32_t eye) const;
+    double uncovered_rad(std::uint32_t eye, std::int32_t ray, const Vec2d& a, const Vec2d& b);
+    void look_into_sky(std::int32_t ray, std::uint32_t all);
+    void look_at_rays();
     void follow_gaps(FieldCounts& counts);
     void past_from(Gap& gap, std::int32_t wall, const Vec2d& direction);
     void before_to(Gap& gap, std::int32_t wall, const Vec2d& direction);
@@ -89,12 +101,15 @@ private:
     double tan_limit_;
     double max2_;  // squares of the scanner's range
     double min2_;
+    std::int32_t rays_;  // per eye
     double step_rad_;
 
     PerRay<Vec2d> eyes_;
+    std::size_t count_ = 0;
     PerRay<double> unobserved_rad_{};
     std::vector<PerRay<std::int32_t>> met_;
     std::vector<Gap> gaps_;
+    std::vector<Stretch> in_sky_;
     std::vector<Stretch> parts_;  // of the wall last cut
     View one_wall_;
     View observed_;

@@ -110,24 +110,15 @@ public:
         set_eyes(eyes.data(), count);
     }
 
-    void along(const Vec2d& direction, PerRay<std::int32_t>& wall) override {
-        context_.packet.direction_x.fill(direction.x());
-        context_.packet.direction_y.fill(direction.y());
-        std::fill_n(rays_.ray.dir_x, packet_rays, static_cast<float>(direction.x()));
-        std::fill_n(rays_.ray.dir_y, packet_rays, static_cast<float>(direction.y()));
+    void along(const Vec2d* directions, PerRay<std::int32_t>& wall) override {
+        set_directions(directions, packet_rays);
         shoot(wall.data(), packet_rays);
     }
 
     void trace(const Vec2d* eyes, const Vec2d* directions, std::size_t count,
                std::int32_t* wall) override {
         set_eyes(eyes, count);
-        for (std::size_t i = 0; i < packet_rays; ++i) {
-            const Vec2d& d = directions[std::min(i, count - 1)];
-            context_.packet.direction_x[i] = d.x();
-            context_.packet.direction_y[i] = d.y();
-            rays_.ray.dir_x[i] = static_cast<float>(d.x());
-            rays_.ray.dir_y[i] = static_cast<float>(d.y());
-        }
+        set_directions(directions, count);
         shoot(wall, count);
     }
 
@@ -142,6 +133,16 @@ private:
             rays_.ray.org_x[i] = static_cast<float>(local.x());
             rays_.ray.org_y[i] = static_cast<float>(local.y());
             valid_[i] = i < count ? -1 : 0;
+        }
+    }
+
+    void set_directions(const Vec2d* directions, std::size_t count) {
+        for (std::size_t i = 0; i < packet_rays; ++i) {
+            const Vec2d& d = directions[std::min(i, count - 1)];
+            context_.packet.direction_x[i] = d.x();
+            context_.packet.direction_y[i] = d.y();
+            rays_.ray.dir_x[i] = static_cast<float>(d.x());
+            rays_.ray.dir_y[i] = static_cast<float>(d.y());
         }
     }
 
@@ -172,7 +173,8 @@ struct EmbreeScene::Impl {
     std::unique_ptr<WallEnds> ends;
     Segments segments{};
     double reach_m = 0;
-    std::vector<Vec2d> directions;
+    std::vector<Vec2d> directions;       // of a single eye
+    std::vector<Vec2d> fine_directions;  // of a block's eyes, side by side
     RTCScene scene = nullptr;
 
     EmbreeTracer tracer() const { return {segments, scene, reach_m}; }
@@ -185,7 +187,10 @@ EmbreeScene::EmbreeScene(const std::vector<Wall>& walls, const Box& around, doub
     m.walls = walls;
     m.ends = std::make_unique<WallEnds>(m.walls);
     m.reach_m = reach_m;
-    m.directions = circle_directions(rays);
+    m.fine_directions = circle_directions(rays * static_cast<int>(packet_rays));
+    for (std::size_t i = 0; i < m.fine_directions.size(); i += packet_rays) {
+        m.directions.push_back(m.fine_directions[i]);
+    }
     const Vec2d middle = (around.min + around.max) / 2;
     // Float keeps 24 bits: pad the boxes by what it loses at this size, and by a millimetre.
     const double size = around.size().norm() + reach_m;
@@ -226,7 +231,7 @@ FieldCounts EmbreeScene::field(const Scanner& scanner, const Grid& grid, const W
     const Impl& m = *impl_;
     const DenormalsOff scope;
     EmbreeTracer tracer = m.tracer();
-    BlockField block(m.walls, *m.ends, scanner, m.directions, tracer);
+    BlockField block(m.walls, *m.ends, scanner, m.fine_directions, tracer);
     FieldCounts counts;
     PerRay<Vec2d> eyes;
     PerRay<std::int64_t> cells{};

@@ -177,22 +177,32 @@ void one_packet(const Expansion& expansion, const std::vector<Wall>& walls, cons
         const V area = cross_lanes(ax, ay, bx, by);
         const double len_x = wall.b.x() - wall.a.x();
         const double len_y = wall.b.y() - wall.a.y();
-        const V near2 = hn::Set(d, min2 * (len_x * len_x + len_y * len_y));
-        M whole = hn::And(
-            hn::Le(dot_lanes(ax, ay, ax, ay), max2),
-            hn::And(hn::Le(dot_lanes(bx, by, bx, by), max2), hn::Ge(hn::Mul(area, area), near2)));
+        const double len2 = len_x * len_x + len_y * len_y;
+        const V area2 = hn::Mul(area, area);
+        const M a_near = hn::Le(dot_lanes(ax, ay, ax, ay), max2);
+        const M b_near = hn::Le(dot_lanes(bx, by, bx, by), max2);
+        M whole = hn::And(hn::And(a_near, b_near), hn::Ge(area2, hn::Set(d, min2 * len2)));
         if (tan_incidence >= 0) whole = no_lanes();
         const M in_range = hn::And(m, whole);
         const M in_part = hn::AndNot(whole, m);
         if (!hn::AllFalse(d, in_range)) runs.extend(in_range, rx, ry, lx, ly);
         if (hn::AllFalse(d, in_part)) return;
         runs.end(in_part);
+        // Out of range where both ends are, and the foot of the perpendicular is too or lies off
+        // the wall.
+        const V ux = hn::Set(d, len_x);
+        const V uy = hn::Set(d, len_y);
+        const M foot_far = hn::Or(hn::Ge(area2, hn::Mul(max2, hn::Set(d, len2))),
+                                  hn::Or(hn::Ge(dot_lanes(ax, ay, ux, uy), zero),
+                                         hn::Le(dot_lanes(bx, by, ux, uy), zero)));
+        const M cut = hn::AndNot(hn::AndNot(hn::Or(a_near, b_near), foot_far), in_part);
+        if (hn::AllFalse(d, cut)) return;
         HWY_ALIGN double border[4][most_lanes];
         hn::Store(rx, d, border[0]);
         hn::Store(ry, d, border[1]);
         hn::Store(lx, d, border[2]);
         hn::Store(ly, d, border[3]);
-        for (std::uint32_t b = bits_of(in_part); b != 0; b &= b - 1) {
+        for (std::uint32_t b = bits_of(cut); b != 0; b &= b - 1) {
             const int i = std::countr_zero(b);
             vf[i] += observed_angle_rad(wall, scanner, tan_incidence, {x[i], y[i]},
                                         {border[0][i], border[1][i]}, {border[2][i], border[3][i]});

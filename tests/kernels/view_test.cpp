@@ -325,7 +325,7 @@ TEST(ExactScene, RefusesWallsThatOverlap) {
 }
 
 TEST(EmbreeScene, DefaultRaysGrowWithRangeAndFineness) {
-    EXPECT_EQ(default_rays(600, 5), 512);
+    EXPECT_EQ(default_rays(600, 5), 256);
     EXPECT_EQ(default_rays(30, 0.1), 512);
     EXPECT_EQ(default_rays(1, 5), 128);
     EXPECT_EQ(default_rays(1e6, 0.1), 512);
