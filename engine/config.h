@@ -34,7 +34,7 @@ struct Config {
         double max_incidence_deg = 90;
     } scanner;
     struct {
-        std::string kernel = "embree";
+        std::string kernel = "exact";
         std::int64_t rays = 0;
     } visibility;
     struct {

@@ -176,8 +176,6 @@ struct EmbreeScene::Impl {
     std::vector<Vec2d> directions;       // of a single eye
     std::vector<Vec2d> fine_directions;  // of a block's eyes, side by side
     RTCScene scene = nullptr;
-
-    EmbreeTracer tracer() const { return {segments, scene, reach_m}; }
 };
 
 EmbreeScene::EmbreeScene(const std::vector<Wall>& walls, const Box& around, double reach_m,
@@ -210,9 +208,13 @@ EmbreeScene::EmbreeScene(const std::vector<Wall>& walls, const Box& around, doub
 
 EmbreeScene::~EmbreeScene() { rtcReleaseScene(impl_->scene); }
 
+std::unique_ptr<RayTracer> EmbreeScene::tracer() const {
+    return std::make_unique<EmbreeTracer>(impl_->segments, impl_->scene, impl_->reach_m);
+}
+
 void EmbreeScene::first_hits(const Vec2d& eye, View& out) const {
     const Impl& m = *impl_;
-    EmbreeTracer tracer = m.tracer();
+    const std::unique_ptr<RayTracer> rays = tracer();
     const std::vector<Vec2d> eyes(packet_rays, eye);
     follow_transitions(
         m.walls, eye, m.directions,
@@ -220,7 +222,7 @@ void EmbreeScene::first_hits(const Vec2d& eye, View& out) const {
             const DenormalsOff scope;
             wall.resize(d.size());
             for (std::size_t i = 0; i < d.size(); i += packet_rays) {
-                tracer.trace(eyes.data(), &d[i], std::min(packet_rays, d.size() - i), &wall[i]);
+                rays->trace(eyes.data(), &d[i], std::min(packet_rays, d.size() - i), &wall[i]);
             }
         },
         out);
@@ -230,8 +232,8 @@ FieldCounts EmbreeScene::field(const Scanner& scanner, const Grid& grid, const W
                                const Raster<std::uint8_t>& standable, Raster<float>& vf_rad) const {
     const Impl& m = *impl_;
     const DenormalsOff scope;
-    EmbreeTracer tracer = m.tracer();
-    BlockField block(m.walls, *m.ends, scanner, m.fine_directions, tracer);
+    const std::unique_ptr<RayTracer> rays = tracer();
+    BlockField block(m.walls, *m.ends, scanner, m.fine_directions, *rays);
     FieldCounts counts;
     PerRay<Vec2d> eyes;
     PerRay<std::int64_t> cells{};

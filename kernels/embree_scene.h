@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels/ray_tracer.h"
 #include "kernels/view.h"
 
 namespace vfplan {
@@ -26,6 +27,9 @@ public:
     void first_hits(const Vec2d& eye, View& out) const override;
     FieldCounts field(const Scanner& scanner, const Grid& grid, const Window& window,
                       const Raster<std::uint8_t>& standable, Raster<float>& vf_rad) const override;
+
+    // The bare rays; one per thread. Valid as long as the scene is.
+    std::unique_ptr<RayTracer> tracer() const;
 
 private:
     struct Impl;

@@ -51,16 +51,16 @@ void join_first_and_last(View& view) {
     view.pop_back();
 }
 
-// The window's standable cells, each with the triangle it stands in.
+// Eyes in order of the triangle they stand in.
 struct Eyes {
-    struct Eye {
+    struct Place {
         std::int32_t triangle;
-        std::int64_t cell;
+        std::int32_t eye;
     };
-    std::vector<Eye> eyes;
+    std::vector<Place> places;
     std::vector<double> x;
     std::vector<double> y;
-    std::vector<double> vf;
+    std::vector<double> vf_rad;
 };
 
 }  // namespace
@@ -110,50 +110,60 @@ void ExactScene::first_hits(const Vec2d& eye, View& out) const {
     join_first_and_last(out);
 }
 
-FieldCounts ExactScene::field(const Scanner& scanner, const Grid& grid, const Window& window,
-                              const Raster<std::uint8_t>& standable, Raster<float>& vf_rad) const {
+FieldCounts ExactScene::angles(const Scanner& scanner, const std::vector<Vec2d>& eyes,
+                               std::vector<double>& vf_rad) const {
     thread_local Eyes mine;
     thread_local PacketStack stack;
     Eyes& e = mine;
-    e.eyes.clear();
+    const std::size_t n = eyes.size();
+    e.places.clear();
     std::int32_t triangle = -1;
+    for (std::size_t i = 0; i < n; ++i) {
+        triangle = locator_.locate(eyes[i], triangle);
+        e.places.push_back({triangle, static_cast<std::int32_t>(i)});
+    }
+    std::stable_sort(
+        e.places.begin(), e.places.end(),
+        [](const Eyes::Place& a, const Eyes::Place& b) { return a.triangle < b.triangle; });
+    e.x.resize(n);
+    e.y.resize(n);
+    e.vf_rad.assign(n, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+        e.x[i] = eyes[at(e.places[i].eye)].x();
+        e.y[i] = eyes[at(e.places[i].eye)].y();
+    }
+    FieldCounts counts;
+    for (std::size_t i = 0; i < n;) {
+        std::size_t end = i + 1;
+        while (end < n && e.places[end].triangle == e.places[i].triangle) ++end;
+        if (e.places[i].triangle >= 0) {
+            packet_angles(expansion_, walls_, scanner, e.places[i].triangle, &e.x[i], &e.y[i],
+                          end - i, &e.vf_rad[i], stack, counts);
+        }
+        i = end;
+    }
+    vf_rad.resize(n);
+    for (std::size_t i = 0; i < n; ++i) vf_rad[at(e.places[i].eye)] = e.vf_rad[i];
+    return counts;
+}
+
+FieldCounts ExactScene::field(const Scanner& scanner, const Grid& grid, const Window& window,
+                              const Raster<std::uint8_t>& standable, Raster<float>& vf_rad) const {
+    std::vector<std::int64_t> cells;
+    std::vector<Vec2d> eyes;
+    std::vector<double> vf;
     for (std::int32_t iy = window.y_begin; iy < window.y_end; ++iy) {
-        const bool even = (iy - window.y_begin) % 2 == 0;  // snake, to stay near the last one
+        const bool even = (iy - window.y_begin) % 2 == 0;  // there and back, to stay near
         for (std::int32_t k = 0; k < window.x_end - window.x_begin; ++k) {
             const std::int32_t ix = even ? window.x_begin + k : window.x_end - 1 - k;
             const std::int64_t cell = grid.id(ix, iy);
             if (standable[at(cell)] == 0) continue;
-            triangle = locator_.locate(grid.centre(cell), triangle);
-            e.eyes.push_back({triangle, cell});
+            cells.push_back(cell);
+            eyes.push_back(grid.centre(cell));
         }
     }
-    std::stable_sort(e.eyes.begin(), e.eyes.end(), [](const Eyes::Eye& a, const Eyes::Eye& b) {
-        return a.triangle < b.triangle;
-    });
-    e.x.resize(e.eyes.size());
-    e.y.resize(e.eyes.size());
-    e.vf.resize(e.eyes.size());
-    for (std::size_t i = 0; i < e.eyes.size(); ++i) {
-        const Vec2d eye = grid.centre(e.eyes[i].cell);
-        e.x[i] = eye.x();
-        e.y[i] = eye.y();
-    }
-    FieldCounts counts;
-    for (std::size_t i = 0; i < e.eyes.size();) {
-        std::size_t end = i + 1;
-        while (end < e.eyes.size() && e.eyes[end].triangle == e.eyes[i].triangle) ++end;
-        if (e.eyes[i].triangle < 0) {
-            std::fill(e.vf.begin() + static_cast<std::ptrdiff_t>(i),
-                      e.vf.begin() + static_cast<std::ptrdiff_t>(end), 0);
-        } else {
-            packet_angles(expansion_, walls_, scanner, e.eyes[i].triangle, &e.x[i], &e.y[i],
-                          end - i, &e.vf[i], stack, counts);
-        }
-        i = end;
-    }
-    for (std::size_t i = 0; i < e.eyes.size(); ++i) {
-        vf_rad[at(e.eyes[i].cell)] = static_cast<float>(e.vf[i]);
-    }
+    const FieldCounts counts = angles(scanner, eyes, vf);
+    for (std::size_t i = 0; i < cells.size(); ++i) vf_rad[at(cells[i])] = static_cast<float>(vf[i]);
     return counts;
 }
 

@@ -22,6 +22,11 @@ public:
     FieldCounts field(const Scanner& scanner, const Grid& grid, const Window& window,
                       const Raster<std::uint8_t>& standable, Raster<float>& vf_rad) const override;
 
+    // vf_rad[i] = VF(eyes[i]) in double precision. Fast where eyes are near each other in space and
+    // in order. An eye in no triangle sees nothing.
+    FieldCounts angles(const Scanner& scanner, const std::vector<Vec2d>& eyes,
+                       std::vector<double>& vf_rad) const;
+
 private:
     std::vector<Wall> walls_;
     Expansion expansion_;

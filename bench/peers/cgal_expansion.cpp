@@ -8,7 +8,7 @@
 
 #include <stdexcept>
 
-#include "kernels/angle.h"
+#include "kernels/view.h"
 
 namespace vfplan::peers {
 namespace {
@@ -18,38 +18,23 @@ using Arrangement = CGAL::Arrangement_2<CGAL::Arr_segment_traits_2<K>>;
 using Expansion = CGAL::Triangular_expansion_visibility_2<Arrangement, CGAL::Tag_true>;
 
 K::Point_2 point(const Vec2d& p) { return {p.x(), p.y()}; }
-Vec2d vec(const K::Point_2& p) { return {CGAL::to_double(p.x()), CGAL::to_double(p.y())}; }
 
 }  // namespace
 
-// Walls in a large square, so that every face is bounded.
 struct CgalExpansion::Impl {
-    Vec2d lo;
-    Vec2d hi;
     Arrangement arrangement;
     CGAL::Arr_triangulation_point_location<Arrangement> location;
     Expansion expansion;
-
-    void see(const Vec2d& eye, Arrangement& seen) const {
-        const auto where = location.locate(point(eye));
-        const auto* face = boost::get<Arrangement::Face_const_handle>(&where);
-        if (face == nullptr) throw std::invalid_argument("the eye stands on a wall");
-        expansion.compute_visibility(point(eye), *face, seen);
-    }
-
-    bool on_square(const K::Point_2& p, const K::Point_2& q) const {  // exactly
-        return (p.x() == lo.x() && q.x() == lo.x()) || (p.x() == hi.x() && q.x() == hi.x()) ||
-               (p.y() == lo.y() && q.y() == lo.y()) || (p.y() == hi.y() && q.y() == hi.y());
-    }
+    Arrangement::Face_const_handle face;
 };
 
+// Walls in a large square, so that every face is bounded.
 CgalExpansion::CgalExpansion(const std::vector<Wall>& walls, const Box& around)
     : impl_(std::make_unique<Impl>()) {
     const double margin = 3 * around.size().norm();
-    impl_->lo = around.min - Vec2d(margin, margin);
-    impl_->hi = around.max + Vec2d(margin, margin);
-    const Vec2d corner[] = {
-        impl_->lo, {impl_->hi.x(), impl_->lo.y()}, impl_->hi, {impl_->lo.x(), impl_->hi.y()}};
+    const Vec2d lo = around.min - Vec2d(margin, margin);
+    const Vec2d hi = around.max + Vec2d(margin, margin);
+    const Vec2d corner[] = {lo, {hi.x(), lo.y()}, hi, {lo.x(), hi.y()}};
     std::vector<K::Segment_2> segments;
     for (const Wall& w : walls) segments.emplace_back(point(w.a), point(w.b));
     for (int i = 0; i < 4; ++i) segments.emplace_back(point(corner[i]), point(corner[(i + 1) % 4]));
@@ -60,30 +45,38 @@ CgalExpansion::CgalExpansion(const std::vector<Wall>& walls, const Box& around)
 
 CgalExpansion::~CgalExpansion() = default;
 
-// 2 pi less the angle through which the square shows.
-double CgalExpansion::vf_rad(const Vec2d& eye) const {
-    Arrangement seen;
-    impl_->see(eye, seen);
-    double outside = 0;
-    for (auto e = seen.edges_begin(); e != seen.edges_end(); ++e) {
-        const K::Point_2& p = e->source()->point();
-        const K::Point_2& q = e->target()->point();
-        if (!impl_->on_square(p, q)) continue;
-        const double a = angle_between_rad(vec(p) - eye, vec(q) - eye);
-        outside += std::min(a, 2 * pi - a);
-    }
-    return 2 * pi - outside;
+void CgalExpansion::stand_at(const Vec2d& eye) {
+    const auto where = impl_->location.locate(point(eye));
+    const auto* face = boost::get<Arrangement::Face_const_handle>(&where);
+    if (face == nullptr) throw std::invalid_argument("the eye stands on a wall");
+    impl_->face = *face;
 }
 
-std::size_t CgalExpansion::corners(const Vec2d& eye) const {
+void CgalExpansion::see(const Vec2d& eye, std::vector<Vec2d>& corners) const {
     Arrangement seen;
-    impl_->see(eye, seen);
-    std::size_t count = 0;
-    for (auto v = seen.vertices_begin(); v != seen.vertices_end(); ++v) {
-        const Vec2d p = vec(v->point());
-        if (p.x() == p.x() && p.y() == p.y()) ++count;
+    const auto face = impl_->expansion.compute_visibility(point(eye), impl_->face, seen);
+    corners.clear();
+    const auto begin = face->outer_ccb();
+    auto edge = begin;
+    do {
+        const K::Point_2& p = edge->source()->point();
+        corners.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()));
+    } while (++edge != begin);
+}
+
+// Edges between two walls point at the eye and have no angle; the square is out of range.
+double CgalExpansion::vf_rad(const Vec2d& eye, const Scanner& scanner) const {
+    std::vector<Vec2d> corners;
+    see(eye, corners);
+    const double tan_limit = tan_incidence(scanner);
+    double sum = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        Wall edge;
+        edge.a = corners[i];
+        edge.b = corners[(i + 1) % corners.size()];
+        sum += observed_angle_rad(edge, scanner, tan_limit, eye, edge.a - eye, edge.b - eye);
     }
-    return count;
+    return sum;
 }
 
 }  // namespace vfplan::peers

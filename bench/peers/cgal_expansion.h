@@ -4,22 +4,27 @@
 #include <memory>
 #include <vector>
 
+#include "kernels/scanner.h"
 #include "kernels/wall.h"
 
 namespace vfplan::peers {
 
-// Sees without limit of range.
+// It knows no range: it always computes all that can be seen.
 class CgalExpansion {
 public:
     // `around`: where eyes may stand.
     CgalExpansion(const std::vector<Wall>& walls, const Box& around);
     ~CgalExpansion();
 
-    // The angle through which `eye` sees walls. Throws std::invalid_argument for an eye on a wall.
-    double vf_rad(const Vec2d& eye) const;
+    // The query: corners of the visible region, read out, counter-clockwise. The eye's face is
+    // found once and for all, as if all eyes stood outdoors: see stand_at().
+    void see(const Vec2d& eye, std::vector<Vec2d>& corners) const;
 
-    // The query alone: visible region, coordinates read out. Returns its number of corners.
-    std::size_t corners(const Vec2d& eye) const;
+    // Finds the face of this and the following eyes. Throws std::invalid_argument on a wall.
+    void stand_at(const Vec2d& eye);
+
+    // VF (eq. 5) from the region's edges; all walls count as scanned.
+    double vf_rad(const Vec2d& eye, const Scanner& scanner) const;
 
 private:
     struct Impl;
