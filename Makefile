@@ -11,7 +11,8 @@ VFPLAN := build/$(PRESET)/vfplan
 
 SOURCES = $(shell find kernels io engine tests bench -name '*.cpp' -o -name '*.h' | LC_ALL=C sort)
 
-.PHONY: help setup build configure program run test bench check-format format tidy clean
+.PHONY: help setup build configure program run test bench-build bench bench-check bench-counts \
+        scaling check-format format tidy clean
 
 help:  ## this list
 	@sed -nE 's/^([a-z-]+):.*  ## (.*)/\1|\2/p' Makefile | \
@@ -41,13 +42,22 @@ runs/town.geojson: | program
 test: build  ## build, then run every test
 	@ctest --preset $(PRESET) -j $(JOBS)
 
-bench:  ## build and run the benchmarks
+bench-build:
 	@configs/packages/setup.sh
 	@cmake --preset bench
 	@cmake --build --preset bench -j $(JOBS)
-	@for suite in build/bench/bench_*; do \
-	    if [[ -f $$suite && -x $$suite ]]; then "$$suite"; fi; \
-	done
+
+bench: bench-build  ## time kernels and stages beside their peers; one table
+	@bench/table.py --out runs/bench/table.md
+
+bench-check: bench-build  ## fail when benchmarks got worse than bench/baseline.json
+	@bench/check.py
+
+bench-counts: bench-build  ## the same without times: answers and counts of operations (CI)
+	@bench/check.py --counts
+
+scaling: bench-build  ## threads, crops, city windows: runs/scaling/summary.md, CSV, plot (half an hour)
+	@bench/scaling.py --program build/bench/vfplan
 
 check-format:  ## fail when clang-format would change a source
 	@clang-format --dry-run -Werror $(SOURCES)

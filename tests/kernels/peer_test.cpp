@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bench/peers/cgal_expansion.h"
+#include "bench/peers/rotational_sweep.h"
 #include "io/site_reader.h"
 #include "kernels/free_cells.h"
 #include "tests/data.h"
@@ -87,6 +88,7 @@ TEST_P(ExactAgainstCgal, SeesTheSameAngle) {
     const std::vector<Vec2d> eyes = sample(site, preset(GetParam().kind).cell_m, 40);
     for (const Scanner& scanner : {Scanner{0, far_m, 90}, preset(GetParam().kind).scanner}) {
         scene.angles(scanner, eyes, packets);
+        const peers::RotationalSweep sweep(site.walls);
         double worst = 0;
         for (std::size_t i = 0; i < eyes.size(); ++i) {
             peer.stand_at(eyes[i]);
@@ -94,6 +96,7 @@ TEST_P(ExactAgainstCgal, SeesTheSameAngle) {
             const double vf = view_angle_rad(test::look(scene, site.walls, scanner, eyes[i]));
             EXPECT_NEAR(vf, want, 1e-9) << "eye at " << eyes[i].transpose();
             EXPECT_NEAR(packets[i], want, 1e-9) << "eye at " << eyes[i].transpose();
+            EXPECT_NEAR(sweep.vf_rad(eyes[i], scanner), want, 1e-9);
             worst = std::max({worst, std::abs(vf - want), std::abs(packets[i] - want)});
         }
         std::printf("range %g m: largest difference to CGAL %.2e rad\n", scanner.range_max_m,

@@ -1,0 +1,96 @@
+#include "bench/scenes.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include "engine/generate.h"
+#include "engine/viewer.h"
+#include "io/files.h"
+#include "io/site_reader.h"
+#include "kernels/index.h"
+
+namespace vfplan::bench {
+namespace {
+
+std::filesystem::path data_file(const std::string& path) {
+    const char* data = std::getenv("VFPLAN_DATA");
+    return (data != nullptr ? std::filesystem::path(data)
+                            : std::filesystem::path(VFPLAN_SOURCE_DIR) / ".." / "shared" / "data") /
+           path;
+}
+
+Scene make_scene(const std::string& name, const std::string& job, const std::string& site) {
+    Scene s;
+    s.name = name;
+    s.config = read_config(std::filesystem::path(VFPLAN_SOURCE_DIR) / "configs" / job,
+                           {"site.input=" + site});
+    s.prepared = prepare(s.config, read_site(s.config.site.input, site_options(s.config)).site);
+    return s;
+}
+
+Scene generated(const std::string& name, const std::string& job, const GenerateOptions& options) {
+    const std::filesystem::path file = std::filesystem::temp_directory_path() /
+                                       ("vfplan_bench_" + std::to_string(getpid()) + ".geojson");
+    write_text(file, generate_site(options).geojson);
+    Scene s = make_scene(name, job, file);
+    std::filesystem::remove(file);
+    return s;
+}
+
+}  // namespace
+
+const Scene* scene(const std::string& name) {
+    static std::map<std::string, std::unique_ptr<Scene>> made;
+    const auto found = made.find(name);
+    if (found != made.end()) return found->second.get();
+    std::unique_ptr<Scene>& s = made[name];
+    if (name == "town") {
+        s = std::make_unique<Scene>(generated(name, "town.toml", {"town", 1, 2, 6}));
+    } else if (name == "city") {
+        s = std::make_unique<Scene>(generated(name, "city.toml", {"city", 1, 1, 6}));
+    } else if (name == "flat") {
+        s = std::make_unique<Scene>(generated(name, "flat.toml", {"flat", 1, 2, 12}));
+    } else if (name == "bellevue") {
+        const auto file = data_file("town_bellevue/bellevue_976x893.geojson");
+        if (std::filesystem::exists(file)) {
+            s = std::make_unique<Scene>(make_scene(name, "town.toml", file));
+        }
+    }
+    return s.get();
+}
+
+std::vector<Window> sample_windows(const Scene& scene, int every) {
+    const Grid& g = scene.grid();
+    std::vector<Window> out;
+    int index = 0;
+    for (std::int32_t y = 0; y < g.ny; y += window_cells) {
+        for (std::int32_t x = 0; x < g.nx; x += window_cells) {
+            const Window w{x, y, std::min(x + window_cells, g.nx),
+                           std::min(y + window_cells, g.ny)};
+            if (eyes_in(scene, {w}).empty() || index++ % every != 0) continue;
+            out.push_back(w);
+        }
+    }
+    return out;
+}
+
+std::vector<Vec2d> eyes_in(const Scene& scene, const std::vector<Window>& windows) {
+    std::vector<Vec2d> out;
+    for (const Window& w : windows) {
+        for (std::int32_t iy = w.y_begin; iy < w.y_end; ++iy) {
+            for (std::int32_t ix = w.x_begin; ix < w.x_end; ++ix) {
+                const std::int64_t cell = scene.grid().id(ix, iy);
+                if (scene.prepared.standable[at(cell)] != 0) {
+                    out.push_back(scene.grid().centre(cell));
+                }
+            }
+        }
+    }
+    return out;
+}
+
+}  // namespace vfplan::bench
