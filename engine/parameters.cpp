@@ -126,14 +126,14 @@ std::vector<std::pair<Parameter, ParameterValue>> parameters(Config& c) {
 
         {{"visibility",
           "kernel",
-          "of the field. embree: packets of rays, wall ends found analytically; exact: "
-          "triangular expansion",
+          "of the field. exact: triangular expansion; embree: packets of rays, wall ends found "
+          "analytically (slower, a check by other means)",
           tables,
-          {"embree", "exact"}},
+          {"exact", "embree"}},
          &c.visibility.kernel},
         {{"visibility",
           "rays",
-          "embree: rays per view before wall ends are followed, a power of "
+          "embree: rays per view before gaps between walls are followed up, a power of "
           "two; 0: from range and partition",
           tables,
           {},

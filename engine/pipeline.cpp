@@ -70,7 +70,7 @@ std::string estimate_text(const Config& config, const Prepared& p, const Threads
         "candidates   about {}\n"
         "memory       about {:.0f} MB\n"
         "disk         about {:.1f} MB\n"
-        "field        about {:.0f} s with {} threads\n"
+        "field        about {:.2g} s with {} threads\n"
         "The job is valid; nothing was written.\n",
         e.cells, config.field.cell_m, e.free_cells, e.pieces, e.candidates, e.memory_mb, e.disk_mb,
         e.field_s, threads.count());
@@ -106,6 +106,20 @@ void write_provenance(const RunDir& dir, const Config& config, const std::string
                     {"threads", threads},
                     {"finished_utc", when}};
     write_text(dir.file("provenance.json"), j.dump(2) + "\n");
+}
+
+// What the field cost in operations. For the rays "steps" are rays.
+Json field_summary(const Config& config, const FieldCounts& c) {
+    Json j = {{"kernel", config.visibility.kernel}, {"cells", c.cells}, {"packets", c.packets}};
+    const double cells = static_cast<double>(std::max<std::int64_t>(1, c.cells));
+    if (config.visibility.kernel == "embree") {
+        j["rays"] = c.steps;
+        j["rays_per_view"] = static_cast<double>(c.steps) / cells;
+    } else {
+        j["steps"] = c.steps;
+        j["walls_met"] = c.walls;
+    }
+    return j;
 }
 
 Json candidate_summary(const CandidateReport& r) {
@@ -191,6 +205,7 @@ std::string run_job(const Config& config, const JobOptions& options, Progress& p
             {"cells", prepared.grid.size()},
             {"free_cells", std::count(prepared.standable.begin(), prepared.standable.end(), 1)},
             {"cell_m", prepared.grid.cell_m}};
+        summary["field_work"] = field_summary(config, tables.counts);
         summary["candidate_search"] = candidate_summary(tables.report);
     }
     std::string text;

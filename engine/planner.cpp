@@ -1,8 +1,10 @@
 #include "engine/planner.h"
-#include "kernels/index.h"
 
 #include <algorithm>
 #include <numeric>
+
+#include "engine/separation.h"
+#include "kernels/index.h"
 
 namespace vfplan {
 namespace {
@@ -45,6 +47,12 @@ void count_coverage(const PlanInput& in, const Chosen& chosen, std::vector<std::
             ++count[at(s->piece)];
         }
     }
+}
+
+std::vector<std::uint8_t> marked(const PlanInput& in, const Chosen& chosen) {
+    std::vector<std::uint8_t> out(at(in.graph.size()), 0);
+    for (const std::int32_t c : chosen) out[at(c)] = 1;
+    return out;
 }
 
 std::int64_t loose_stations(const PlanInput& in, Chosen chosen) {
@@ -157,73 +165,57 @@ Plan make_plan(const PlanInput& in, const PlanOptions& options, PlanReport& repo
 
 Chosen prune_network(const PlanInput& in, const Chosen& chosen,
                      const std::vector<std::uint8_t>& kept, std::vector<std::int32_t>& count) {
-    std::vector<std::int32_t> nodes = chosen;
-    std::sort(nodes.begin(), nodes.end());
-    Cuts cuts = find_cuts(induced(in.graph, nodes));
-    Chosen left_over = chosen;
-    for (auto v = chosen.rbegin(); v != chosen.rend() && nodes.size() > 1; ++v) {
-        if (kept[at(*v)] != 0) continue;
-        const auto position = std::lower_bound(nodes.begin(), nodes.end(), *v);
-        if (cuts.articulation[at(position - nodes.begin())] != 0) continue;
+    Separation network(in.graph, marked(in, chosen));
+    std::size_t left = chosen.size();
+    for (auto v = chosen.rbegin(); v != chosen.rend() && left > 1; ++v) {
         const Seen* begin = in.table.row_begin(*v);
         const Seen* end = in.table.row_end(*v);
-        if (std::any_of(begin, end, [&](const Seen& s) { return count[at(s.piece)] < 2; })) {
+        if (kept[at(*v)] != 0 ||
+            std::any_of(begin, end, [&](const Seen& s) { return count[at(s.piece)] < 2; }) ||
+            !network.can_go(*v)) {
             continue;
         }
         for (const Seen* s = begin; s != end; ++s) --count[at(s->piece)];
-        nodes.erase(position);
-        left_over.erase(std::find(left_over.begin(), left_over.end(), *v));
-        cuts = find_cuts(induced(in.graph, nodes));
+        network.remove(*v);
+        --left;
     }
-    return left_over;
+    Chosen out;
+    for (const std::int32_t v : chosen) {
+        if (network.inside(v)) out.push_back(v);
+    }
+    return out;
 }
 
-Chosen close_loops(const PlanInput& in, const Chosen& chosen) {
-    Chosen out = chosen;
-    if (out.size() < 2) return out;
-    for (const std::int32_t v : chosen) {
-        std::vector<std::int32_t> nodes = out;
-        std::sort(nodes.begin(), nodes.end());
-        const Cuts cuts = find_cuts(induced(in.graph, nodes));
-        const auto position = std::lower_bound(nodes.begin(), nodes.end(), v);
-        if (cuts.on_cycle[at(position - nodes.begin())] != 0) continue;
-        std::vector<std::uint8_t> inside(at(in.graph.size()), 0);
-        for (const std::int32_t c : nodes) inside[at(c)] = 1;
+namespace {
 
-        // Breadth first from v through candidates that are not stations, to the first one that
-        // touches another station; among those of one level the widest path (its smallest
-        // overlap), then the lowest id.
-        std::vector<std::int32_t> before(inside.size(), -1);
-        std::vector<double> width(inside.size(), 0);
-        std::vector<std::uint8_t> seen = inside;
+// Looks for the fewest candidates that put a station on a cycle through another one.
+class LoopSearch {
+public:
+    explicit LoopSearch(const PlanInput& in)
+        : in_(in),
+          before_(at(in.graph.size()), -1),
+          width_(before_.size(), 0),
+          seen_(before_.size(), 0) {}
+
+    // Breadth first from v through candidates that are not stations, to the first one that touches
+    // another station; among those of one level the widest path (its smallest overlap), then the
+    // lowest id. Returns it from its far end to v, without v; empty where there is none.
+    std::vector<std::int32_t> from(std::int32_t v, const Separation& network) {
         std::vector<std::int32_t> level = {v};
-        width[at(v)] = 1;
+        std::vector<std::int32_t> path;
+        width_[at(v)] = 1;
+        touched_ = {v};
         std::int32_t goal = -1;
         while (goal < 0 && !level.empty()) {
-            std::vector<std::int32_t> next;
-            for (const std::int32_t c : level) {
-                in.graph.each(c, [&](std::int32_t n, double overlap_value) {
-                    if (seen[at(n)] == 1) return;
-                    if (seen[at(n)] == 0) {
-                        seen[at(n)] = 2;
-                        next.push_back(n);
-                    }
-                    const double w = std::min(width[at(c)], overlap_value);
-                    if (w > width[at(n)]) {
-                        width[at(n)] = w;
-                        before[at(n)] = c;
-                    }
-                });
-            }
-            std::sort(next.begin(), next.end());
+            std::vector<std::int32_t> next = next_level(level, network);
             double best = 0;
             for (const std::int32_t n : next) {
-                seen[at(n)] = 1;
+                seen_[at(n)] = 1;
                 double closing = 0;
-                in.graph.each(n, [&](std::int32_t s, double overlap_value) {
-                    if (s != v && inside[at(s)] != 0) closing = std::max(closing, overlap_value);
+                in_.graph.each(n, [&](std::int32_t s, double overlap_value) {
+                    if (s != v && network.inside(s)) closing = std::max(closing, overlap_value);
                 });
-                const double w = std::min(closing, width[at(n)]);
+                const double w = std::min(closing, width_[at(n)]);
                 if (w > best) {
                     best = w;
                     goal = n;
@@ -231,7 +223,58 @@ Chosen close_loops(const PlanInput& in, const Chosen& chosen) {
             }
             level = std::move(next);
         }
-        for (std::int32_t c = goal; c >= 0 && c != v; c = before[at(c)]) out.push_back(c);
+        for (std::int32_t c = goal; c >= 0 && c != v; c = before_[at(c)]) path.push_back(c);
+        for (const std::int32_t c : touched_) {
+            before_[at(c)] = -1;
+            width_[at(c)] = 0;
+            seen_[at(c)] = 0;
+        }
+        return path;
+    }
+
+private:
+    std::vector<std::int32_t> next_level(const std::vector<std::int32_t>& level,
+                                         const Separation& network) {
+        std::vector<std::int32_t> next;
+        for (const std::int32_t c : level) {
+            in_.graph.each(c, [&](std::int32_t n, double overlap_value) {
+                if (seen_[at(n)] == 1 || network.inside(n)) return;
+                if (seen_[at(n)] == 0) {
+                    seen_[at(n)] = 2;
+                    next.push_back(n);
+                    touched_.push_back(n);
+                }
+                const double w = std::min(width_[at(c)], overlap_value);
+                if (w > width_[at(n)]) {
+                    width_[at(n)] = w;
+                    before_[at(n)] = c;
+                }
+            });
+        }
+        std::sort(next.begin(), next.end());
+        return next;
+    }
+
+    const PlanInput& in_;
+    std::vector<std::int32_t> before_;
+    std::vector<double> width_;
+    std::vector<std::uint8_t> seen_;
+    std::vector<std::int32_t> touched_;
+};
+
+}  // namespace
+
+Chosen close_loops(const PlanInput& in, const Chosen& chosen) {
+    Chosen out = chosen;
+    if (out.size() < 2) return out;
+    Separation network(in.graph, marked(in, chosen));
+    LoopSearch search(in);
+    for (const std::int32_t v : chosen) {
+        if (network.on_cycle(v)) continue;
+        for (const std::int32_t c : search.from(v, network)) {
+            network.add(c);
+            out.push_back(c);
+        }
     }
     return out;
 }

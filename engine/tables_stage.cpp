@@ -30,26 +30,27 @@ std::vector<Ring> forbidden_rings(const Config& config, const Site& site) {
     return rings_of_union(polygons, config.site.snap_m);
 }
 
-// Processor seconds of a view, from a spread of free cells.
-double seconds_per_view(const Config& config, const Prepared& p) {
-    constexpr std::int64_t sample = 300;
+// Processor seconds per cell of the field, from windows spread over the grid.
+double seconds_per_cell(const Config& config, const Prepared& p) {
+    constexpr std::int32_t windows = 6;  // each way
+    constexpr std::int32_t side = 16;    // cells
     const Scanner scanner = scanner_of(config);
     const auto kernel = make_kernel(config.visibility.kernel, p.site.walls, p.site.extent,
                                     scanner.range_max_m, rays_of(config));
-    View hits;
-    View seen;
-    std::int64_t views = 0;
+    Raster<float> vf(p.standable.size());
+    FieldCounts counts;
     const Moment begin = Moment::now();
-    for (std::int64_t c = 0; c < p.grid.size();
-         c += std::max<std::int64_t>(1, p.grid.size() / sample)) {
-        if (p.standable[static_cast<std::size_t>(c)] == 0) continue;
-        const Vec2d eye = p.grid.centre(c);
-        kernel->first_hits(eye, hits);
-        observe(p.site.walls, scanner, eye, hits, seen);
-        ++views;
+    for (std::int32_t i = 0; i < windows * windows; ++i) {
+        const auto corner = [&](std::int32_t k, std::int32_t n) {
+            return (2 * k + 1) * n / (2 * windows) / window_step * window_step;
+        };
+        const std::int32_t x = corner(i % windows, p.grid.nx);
+        const std::int32_t y = corner(i / windows, p.grid.ny);
+        const Window w{x, y, std::min(x + side, p.grid.nx), std::min(y + side, p.grid.ny)};
+        counts += kernel->field(scanner, p.grid, w, p.standable, vf);
     }
     return (Moment::now().cpu_s - begin.cpu_s) /
-           static_cast<double>(std::max<std::int64_t>(1, views));
+           static_cast<double>(std::max<std::int64_t>(1, counts.cells));
 }
 
 std::vector<Vec2d> in_site_frame(const std::vector<Vec2d>& points, const Site& site,
@@ -166,7 +167,7 @@ Estimate estimate(const Config& config, const Prepared& p, const Threads& thread
         (static_cast<double>(e.free_cells) * 3 + entries * 5 + static_cast<double>(e.pieces) * 80) /
             1e6 +
         1;
-    e.field_s = seconds_per_view(config, p) * static_cast<double>(e.free_cells) / threads.count();
+    e.field_s = seconds_per_cell(config, p) * static_cast<double>(e.free_cells) / threads.count();
     return e;
 }
 
@@ -242,6 +243,7 @@ Tables make_tables(const Config& config, const Prepared& p, const std::string& k
     c.crs_wkt = p.site.crs_wkt;
     c.key = key;
     out.report = found.report;
+    out.counts = field.counts;
     return out;
 }
 

@@ -47,6 +47,7 @@ struct Tables {
     FieldTable field;
     CoverageTables coverage;
     CandidateReport report;
+    FieldCounts counts;  // of the field
 };
 
 // Field, skeleton, candidates, coverage. `key` goes into both tables.

@@ -169,6 +169,31 @@ void check_field(const Viewer& viewer, const Threads& threads, const FieldTable&
                                        wrong > 0 ? fmt::format(": {} times wrong", wrong) : ""));
 }
 
+// The exact kernel made the rows and looks again from the stations: the same mistake twice would
+// not show. Rays share nothing with it but the walls.
+void check_with_rays(const Viewer& exact, const Viewer& rays, const Threads& threads,
+                     const std::vector<Vec2d>& eyes, Checks& checks) {
+    std::vector<double> error(eyes.size(), 0);
+    threads.for_each(
+        static_cast<std::int64_t>(eyes.size()), 4, [&](std::int64_t from, std::int64_t to) {
+            for (std::int64_t i = from; i < to; ++i) {
+                const Vec2d& eye = eyes[at(i)];
+                error[at(i)] = std::abs(rays.look(eye).vf_rad - exact.look(eye).vf_rad);
+            }
+        });
+    double sum = 0;
+    double worst = 0;
+    for (const double e : error) {
+        sum += e;
+        worst = std::max(worst, e);
+    }
+    const double mean = eyes.empty() ? 0 : sum / static_cast<double>(eyes.size());
+    checks.add(mean <= 5e-3,
+               fmt::format("rays from {} stations: mean difference to the exact views {:.2e} rad, "
+                           "worst {:.2e} (mean allowed 5e-03)",
+                           eyes.size(), mean, worst));
+}
+
 void check_bound(const CoverageTables& t, const Plan& plan, Checks& checks) {
     std::vector<std::uint8_t> in_bound(plan.pieces.size(), 0);
     for (const std::int32_t p : plan.bound_pieces) in_bound[at(p)] = 1;
@@ -241,6 +266,13 @@ VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Pro
     check_coverage(t, table.plan, rows, checks);
     check_connection(t, table, rows, checks);
     check_field(viewer, threads, field, table.plan, config.visibility.kernel, checks);
+    constexpr int many_rays = 1024;
+    const std::unique_ptr<ViewKernel> embree =
+        make_kernel("embree", t.walls, box, config.scanner.range_max_m, many_rays);
+    check_with_rays(
+        viewer,
+        Viewer(*embree, t.walls, t.pieces, scanner_of(config), config.coverage.visible_fraction),
+        threads, eyes, checks);
     check_bound(t, table.plan, checks);
     progress.finish();
     return checks.result();
