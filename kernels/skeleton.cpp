@@ -51,6 +51,13 @@ unsigned neighbourhood(const Grid& grid, const Raster<std::uint8_t>& set, std::i
     const std::int32_t ix = grid.ix(cell);
     const std::int32_t iy = grid.iy(cell);
     unsigned bits = 0;
+    if (ix > 0 && iy > 0 && ix + 1 < grid.nx && iy + 1 < grid.ny) {
+        const std::uint8_t* here = set.data() + cell;
+        const std::ptrdiff_t up = grid.nx;
+        const std::ptrdiff_t step[8] = {1, up + 1, up, up - 1, -1, -up - 1, -up, 1 - up};
+        for (unsigned k = 0; k < 8; ++k) bits |= (here[step[k]] != 0 ? 1U : 0U) << k;
+        return bits;
+    }
     for (unsigned k = 0; k < 8; ++k) {
         const std::int32_t x = ix + around_dx[k];
         const std::int32_t y = iy + around_dy[k];
@@ -82,20 +89,27 @@ Raster<std::uint8_t> thin(const Grid& grid, const Raster<std::uint8_t>& domain,
                           const DistanceField& distance) {
     static const std::array<bool, 256> simple = make_simple_table();
     Raster<std::uint8_t> left_over = domain;
-    using Entry = std::pair<std::int32_t, std::int64_t>;  // squared distance, cell
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    // Squared distance above, cell below: both fit 32 bits (see prepare()).
+    std::priority_queue<std::uint64_t, std::vector<std::uint64_t>, std::greater<>> queue;
+    Raster<std::uint8_t> waiting(domain.size(), 0);  // once in the queue is enough
+    const auto wait = [&](std::int64_t cell) {
+        const auto i = static_cast<std::size_t>(cell);
+        if (waiting[i] != 0) return;
+        waiting[i] = 1;
+        queue.push(static_cast<std::uint64_t>(distance.squared[i]) << 32 |
+                   static_cast<std::uint64_t>(cell));
+    };
     // First with corners kept, which leaves some lines two cells wide; then without.
     for (const bool corners : {true, false}) {
         for (std::int64_t cell = 0; cell < grid.size(); ++cell) {
-            const auto i = static_cast<std::size_t>(cell);
-            if (left_over[i] != 0 && neighbourhood(grid, left_over, cell) != 255) {
-                queue.emplace(distance.squared[i], cell);
-            }
+            if (left_over[static_cast<std::size_t>(cell)] == 0) continue;
+            if (neighbourhood(grid, left_over, cell) != 255) wait(cell);
         }
         while (!queue.empty()) {
-            const std::int64_t cell = queue.top().second;
+            const auto cell = static_cast<std::int64_t>(queue.top() & 0xffffffffU);
             queue.pop();
             const auto i = static_cast<std::size_t>(cell);
+            waiting[i] = 0;
             if (left_over[i] == 0) continue;
             const unsigned bits = neighbourhood(grid, left_over, cell);
             if (!simple[bits]) continue;
@@ -104,10 +118,8 @@ Raster<std::uint8_t> thin(const Grid& grid, const Raster<std::uint8_t>& domain,
             }
             left_over[i] = 0;
             for (std::size_t k = 0; k < 8; ++k) {
-                if ((bits >> k & 1U) == 0) continue;
-                const std::int64_t n =
-                    grid.id(grid.ix(cell) + around_dx[k], grid.iy(cell) + around_dy[k]);
-                queue.emplace(distance.squared[static_cast<std::size_t>(n)], n);
+                if ((bits >> k & 1U) != 0)
+                    wait(cell + around_dx[k] + around_dy[k] * std::int64_t{grid.nx});
             }
         }
     }
