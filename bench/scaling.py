@@ -444,19 +444,19 @@ def plot_model(ax, _, fits):
                 color=colour, mfc="white", label=f"measured: {key}" + " job" * (key == "whole"))
     ax.plot(cores, [c["amdahl_efficiency"] for c in data["cores"]], color="C3", ls="--",
             label="model (Amdahl): whole job")
-    finish(ax, f"Model of load balance, not measured: {data['case']}, precompute", "cores",
+    finish(ax, f"Model (lines) and measured (diamonds), {data['case']}, precompute", "cores",
            "efficiency", xscale="log", ylim=(0, 1.1))
     plain_ticks(ax.xaxis, CORES)
 
 
 def draw(rows, fits, file):
-    matplotlib.rcParams.update({"svg.hashsalt": "vfplan", "font.size": 9})
+    matplotlib.rcParams.update({"svg.hashsalt": "vfplan", "font.size": 9, "axes.titlesize": 10})
     figure, axes = pyplot.subplots(2, 2, figsize=(12, 9), constrained_layout=True)
     plots = {"strong": plot_strong, "crops": plot_crops, "city": plot_city, "model": plot_model}
     for ax, (part, plot) in zip(axes.flat, plots.items()):
         if part in fits:
             plot(ax, rows, fits)
-            ax.legend(fontsize=8, framealpha=0.9)
+            ax.legend(fontsize=8, framealpha=0.9, handlelength=3.5)
         else:
             ax.set_axis_off()
             ax.text(0.5, 0.5, f"{part}: not measured", ha="center")
