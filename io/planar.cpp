@@ -4,7 +4,9 @@
 #include <geos_c.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "kernels/error.h"
 
@@ -167,13 +169,102 @@ std::vector<Polygon> repaired(const Polygon& p) {
     return polygons_in(checked(GEOSMakeValid_r(context(), polygon(p).get()), "a repair"));
 }
 
+namespace {
+
+// The polygon with its points on the grid, when that is all there is to do: nothing of it comes so
+// near to itself that rounding could make it touch. Null otherwise.
+Geometry rounded(const Polygon& p, double snap_m) {
+    const auto round = [&](const Ring& in) {
+        Ring out;
+        for (const Vec2d& v : in) {
+            const Vec2d w(std::round(v.x() / snap_m) * snap_m, std::round(v.y() / snap_m) * snap_m);
+            if (out.empty() || w != out.back()) out.push_back(w);
+        }
+        while (out.size() > 1 && out.back() == out.front()) out.pop_back();
+        return out;
+    };
+    Polygon on_grid;
+    on_grid.outer = round(p.outer);
+    if (on_grid.outer.size() < 3) return nullptr;
+    for (const Ring& hole : p.holes) {
+        on_grid.holes.push_back(round(hole));
+        if (on_grid.holes.back().size() < 3) return nullptr;
+    }
+    Geometry g = polygon(on_grid);
+    double clearance_m = 0;
+    if (GEOSisValid_r(context(), g.get()) != 1 ||
+        GEOSMinimumClearance_r(context(), g.get(), &clearance_m) != 0 || clearance_m < 2 * snap_m) {
+        return nullptr;
+    }
+    return g;
+}
+
+// Groups of polygons whose boxes come within `near_m` of each other, each ascending.
+std::vector<std::vector<std::size_t>> neighbours(const std::vector<Polygon>& polygons,
+                                                 double near_m) {
+    const std::vector<Box> boxes = [&] {
+        std::vector<Box> out(polygons.size());
+        for (std::size_t i = 0; i < polygons.size(); ++i) {
+            for (const Vec2d& v : polygons[i].outer) out[i].add(v);
+        }
+        return out;
+    }();
+    std::vector<std::size_t> by_x(polygons.size());
+    std::iota(by_x.begin(), by_x.end(), std::size_t{0});
+    std::sort(by_x.begin(), by_x.end(), [&](std::size_t a, std::size_t b) {
+        return std::pair(boxes[a].min.x(), a) < std::pair(boxes[b].min.x(), b);
+    });
+    std::vector<std::size_t> leader(polygons.size());
+    std::iota(leader.begin(), leader.end(), std::size_t{0});
+    const auto find = [&](std::size_t i) {
+        while (leader[i] != i) i = leader[i] = leader[leader[i]];
+        return i;
+    };
+    std::vector<std::size_t> open;  // boxes that may still reach the sweep's place
+    for (const std::size_t i : by_x) {
+        if (polygons[i].outer.empty()) continue;
+        std::erase_if(open,
+                      [&](std::size_t k) { return boxes[k].max.x() + near_m < boxes[i].min.x(); });
+        for (const std::size_t k : open) {
+            if (boxes[k].min.y() > boxes[i].max.y() + near_m ||
+                boxes[i].min.y() > boxes[k].max.y() + near_m) {
+                continue;
+            }
+            const std::size_t a = find(i);
+            const std::size_t b = find(k);
+            leader[std::max(a, b)] = std::min(a, b);
+        }
+        open.push_back(i);
+    }
+    std::vector<std::vector<std::size_t>> groups(polygons.size());
+    for (std::size_t i = 0; i < polygons.size(); ++i) groups[find(i)].push_back(i);
+    std::erase_if(groups, [](const std::vector<std::size_t>& g) { return g.empty(); });
+    return groups;
+}
+
+}  // namespace
+
+// Group by group: one union of everything would node all that is there again and again.
 std::vector<Polygon> unite(const std::vector<Polygon>& polygons, double snap_m) {
     if (polygons.empty()) return {};
-    const Geometry united =
-        checked(GEOSUnaryUnionPrec_r(context(), polygons_of(polygons).get(), snap_m), "a union");
-    // A union of one polygon comes back as it was, off the grid.
-    return polygons_in(
-        checked(GEOSGeom_setPrecision_r(context(), united.get(), snap_m, 0), "snapping"));
+    std::vector<GEOSGeometry*> parts;
+    for (const std::vector<std::size_t>& group : neighbours(polygons, 4 * snap_m)) {
+        if (group.size() == 1) {
+            if (Geometry alone = rounded(polygons[group.front()], snap_m)) {
+                parts.push_back(alone.release());
+                continue;
+            }
+        }
+        std::vector<Polygon> members;
+        for (const std::size_t i : group) members.push_back(polygons[i]);
+        const Geometry united =
+            checked(GEOSUnaryUnionPrec_r(context(), polygons_of(members).get(), snap_m), "a union");
+        // A union of one polygon comes back as it was, off the grid.
+        parts.push_back(
+            checked(GEOSGeom_setPrecision_r(context(), united.get(), snap_m, 0), "snapping")
+                .release());
+    }
+    return polygons_in(collection(GEOS_GEOMETRYCOLLECTION, std::move(parts)));
 }
 
 std::vector<Polygon> subtract(const std::vector<Polygon>& from, const std::vector<Polygon>& what,
