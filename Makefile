@@ -56,7 +56,7 @@ bench-check: bench-build  ## fail when benchmarks got worse than bench/baseline.
 bench-counts: bench-build  ## the same without times: answers and counts of operations (CI)
 	@bench/check.py --counts
 
-scaling: bench-build  ## threads, crops, city windows: runs/scaling/summary.md, CSV, plot (half an hour)
+scaling: bench-build  ## threads, crops, city windows: runs/scaling/summary.md, CSV, plot (some minutes)
 	@bench/scaling.py --program build/bench/vfplan
 
 check-format:  ## fail when clang-format would change a source

@@ -1,10 +1,13 @@
 // Fields and views, this project's and its peers', on the same cells of the same site, one thread.
-// Each verifies before it is timed. A benchmark's time is that of its whole sample; `s_per_cell`
-// (SI prefixes) is what to compare, and the counters say how much work that was.
+// Ours and the sweep verify a part of their answers before they are timed; CGAL is what the exact
+// field is verified against, and bare rays have no answer. A benchmark's time is that of its whole
+// sample; `s_per_cell` (SI prefixes) is what to compare, and the counters say how much work that
+// was.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "bench/peers/cgal_expansion.h"

@@ -31,6 +31,8 @@ def run(arguments, environment=None, folder=SUITES):
                                   stdout=sys.stderr, check=False)
             if done.returncode != 0:
                 sys.exit(f"{suite.name}: ended with exit code {done.returncode}")
+            if not out.exists() or not out.stat().st_size:
+                continue  # no benchmark of this suite was asked for
             read = json.loads(out.read_text())
         context = read["context"]
         for b in read["benchmarks"]:
@@ -40,6 +42,8 @@ def run(arguments, environment=None, folder=SUITES):
             if name in results and b.get("cpu_time", 0) >= results[name].get("cpu_time", 0):
                 continue
             results[name] = b
+    if not results:
+        sys.exit("no benchmark matches the arguments")
     return context, results
 
 

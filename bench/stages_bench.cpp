@@ -3,6 +3,8 @@
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -170,12 +172,20 @@ void stage_write_tables(benchmark::State& state, const std::string& site) {
     const std::filesystem::path dir = std::filesystem::temp_directory_path() /
                                       ("vfplan_bench_tables_" + std::to_string(getpid()));
     std::filesystem::create_directories(dir);
-    timed(state, [&] {
+    const auto write = [&] {
         write_field(dir / "field.h5", m.tables.field);
         write_coverage(dir / "coverage.h5", m.tables.coverage);
-        return std::filesystem::file_size(dir / "field.h5") +
-               std::filesystem::file_size(dir / "coverage.h5");
-    });
+        return m.tables.field.vf_rad.size() + m.tables.coverage.table.seen.size();
+    };
+    timed(state, write);
+    const Raster<float> read = read_field(dir / "field.h5").vf_rad;
+    const bool same = std::equal(
+        read.begin(), read.end(), m.tables.field.vf_rad.begin(), m.tables.field.vf_rad.end(),
+        [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); });
+    if (!same || read_coverage(dir / "coverage.h5").table.seen.size() !=
+                     m.tables.coverage.table.seen.size()) {
+        state.SkipWithError("what was written reads back as something else");
+    }
     std::filesystem::remove_all(dir);
     per_item(state, "cells", m.scene->grid().size());
 }

@@ -94,9 +94,11 @@ std::vector<Task> coverage_tasks(const Viewer& viewer, const CoverageTables& t) 
             return to - from;
         });
     for (std::int64_t i = 0; i < eyes; ++i) {
-        const bool same = std::equal(
-            rows[at(i)].begin(), rows[at(i)].end(), t.table.row_begin(i), t.table.row_end(i),
-            [](const Seen& a, const Seen& b) { return a.piece == b.piece; });
+        const bool same = std::equal(rows[at(i)].begin(), rows[at(i)].end(), t.table.row_begin(i),
+                                     t.table.row_end(i), [](const Seen& a, const Seen& b) {
+                                         return a.piece == b.piece && a.fraction == b.fraction &&
+                                                a.angle_rad == b.angle_rad;
+                                     });
         if (!same) throw Differs(fmt::format("coverage.h5 has other pieces for candidate {}", i));
     }
     return tasks;

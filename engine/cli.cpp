@@ -115,7 +115,9 @@ int verify(const Shared& s) {
 
 int dispatch(int argc, char** argv) {
     watch_signals();
-    if (const char* isa = std::getenv("VFPLAN_ISA")) limit_isa(isa);
+    if (const char* isa = std::getenv("VFPLAN_ISA"); isa != nullptr && *isa != '\0') {
+        limit_isa(isa);
+    }
     CLI::App app{
         "Plans connected networks of static-LiDAR stations from city maps and floor "
         "plans.",

@@ -13,7 +13,7 @@ namespace vfplan {
 // whole network would cost its size every time. Not thread-safe.
 class Separation {
 public:
-    // `inside`: by node, 1 for the chosen ones. Refers to the graph.
+    // `inside`: by node, 1 for the chosen ones. Refers to the graph, which has no parallel edges.
     Separation(const Graph& graph, std::vector<std::uint8_t> inside);
 
     bool inside(std::int32_t node) const { return inside_[static_cast<std::size_t>(node)] != 0; }

@@ -1,6 +1,7 @@
 // A scanner in a site: views, field values and coverage rows through one kernel.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>

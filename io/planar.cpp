@@ -247,11 +247,11 @@ std::vector<std::vector<std::size_t>> neighbours(const std::vector<Polygon>& pol
 // Group by group: one union of everything would node all that is there again and again.
 std::vector<Polygon> unite(const std::vector<Polygon>& polygons, double snap_m) {
     if (polygons.empty()) return {};
-    std::vector<GEOSGeometry*> parts;
+    std::vector<Geometry> parts;
     for (const std::vector<std::size_t>& group : neighbours(polygons, 4 * snap_m)) {
         if (group.size() == 1) {
             if (Geometry alone = rounded(polygons[group.front()], snap_m)) {
-                parts.push_back(alone.release());
+                parts.push_back(std::move(alone));
                 continue;
             }
         }
@@ -261,10 +261,11 @@ std::vector<Polygon> unite(const std::vector<Polygon>& polygons, double snap_m) 
             checked(GEOSUnaryUnionPrec_r(context(), polygons_of(members).get(), snap_m), "a union");
         // A union of one polygon comes back as it was, off the grid.
         parts.push_back(
-            checked(GEOSGeom_setPrecision_r(context(), united.get(), snap_m, 0), "snapping")
-                .release());
+            checked(GEOSGeom_setPrecision_r(context(), united.get(), snap_m, 0), "snapping"));
     }
-    return polygons_in(collection(GEOS_GEOMETRYCOLLECTION, std::move(parts)));
+    std::vector<GEOSGeometry*> released;
+    for (Geometry& part : parts) released.push_back(part.release());
+    return polygons_in(collection(GEOS_GEOMETRYCOLLECTION, std::move(released)));
 }
 
 std::vector<Polygon> subtract(const std::vector<Polygon>& from, const std::vector<Polygon>& what,

@@ -6,6 +6,7 @@
 #include <bit>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "kernels/angle.h"
 #include "kernels/index.h"

@@ -1,6 +1,7 @@
 // VF of a block of neighbouring cells from rays (eq. 4, 5).
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "kernels/ray_tracer.h"
@@ -42,7 +43,7 @@ public:
     BlockField(const std::vector<Wall>& walls, const WallEnds& ends, const Scanner& scanner,
                const std::vector<Vec2d>& directions, RayTracer& tracer);
 
-    // vf_rad[i] = VF(eyes[i]) for i < count <= 16.
+    // vf_rad[i] = VF(eyes[i]) for i < count, 0 < count <= 16.
     void angles(const PerRay<Vec2d>& eyes, std::size_t count, PerRay<double>& vf_rad,
                 FieldCounts& counts);
 

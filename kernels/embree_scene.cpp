@@ -236,6 +236,7 @@ FieldCounts EmbreeScene::field(const Scanner& scanner, const Grid& grid, const W
     BlockField block(m.walls, *m.ends, scanner, m.fine_directions, *rays);
     FieldCounts counts;
     PerRay<Vec2d> eyes;
+    eyes.fill(Vec2d(0, 0));
     PerRay<std::int64_t> cells{};
     PerRay<double> vf{};
     for (std::int32_t y = window.y_begin; y < window.y_end; y += window_step) {

@@ -2,8 +2,8 @@
 //
 // Each wall is one primitive of a user geometry: Embree's boxes (the wall extruded to a slab)
 // find which walls a ray may meet, and the meeting itself is computed here in double precision,
-// nearest first, lowest id among equals. That costs some speed against Embree's own quads and
-// buys the same bits under SSE2, AVX2 and AVX-512.
+// nearest first, lowest id among equals. That gives the same bits under SSE2, AVX2 and AVX-512;
+// with one wall against 16 rays in SIMD it costs no more than Embree's own quads.
 #pragma once
 
 #include <memory>

@@ -65,17 +65,23 @@ bool TriangleLocator::walk(std::int32_t from, const Vec2d& eye, std::int32_t& fo
     return false;
 }
 
+// An eye on an edge stands in two triangles, on a vertex in a fan of them.
 std::int32_t TriangleLocator::lowest_of(std::int32_t triangle, const Vec2d& eye) const {
-    while (true) {
-        const Triangle& t = mesh_.triangles[at(triangle)];
-        std::int32_t lower = triangle;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::int32_t n = t.neighbour[i];
-            if (n >= 0 && n < lower && side_of(t, i, eye) == 0 && contains(n, eye)) lower = n;
+    const auto on_edge = [&](std::int32_t t) {
+        const Triangle& tri = mesh_.triangles[at(t)];
+        return side_of(tri, 0, eye) == 0 || side_of(tri, 1, eye) == 0 || side_of(tri, 2, eye) == 0;
+    };
+    if (!on_edge(triangle)) return triangle;
+    std::vector<std::int32_t> holding = {triangle};
+    for (std::size_t k = 0; k < holding.size(); ++k) {
+        for (const std::int32_t n : mesh_.triangles[at(holding[k])].neighbour) {
+            if (n >= 0 && contains(n, eye) &&
+                std::find(holding.begin(), holding.end(), n) == holding.end()) {
+                holding.push_back(n);
+            }
         }
-        if (lower == triangle) return triangle;
-        triangle = lower;
     }
+    return *std::min_element(holding.begin(), holding.end());
 }
 
 std::int32_t TriangleLocator::locate(const Vec2d& eye, std::int32_t near) const {
@@ -88,7 +94,7 @@ std::int32_t TriangleLocator::locate(const Vec2d& eye, std::int32_t near) const 
         near = seeds_[at(clamp(cell.y()) * seeds_nx_ + clamp(cell.x()))];
     }
     std::int32_t found = 0;
-    if (walk(near, eye, found)) return lowest_of(found, eye);
+    if (walk(near, eye, found)) return contains(found, eye) ? lowest_of(found, eye) : -1;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
         if (contains(static_cast<std::int32_t>(t), eye)) return static_cast<std::int32_t>(t);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "kernels/vec.h"
@@ -20,11 +21,11 @@ class RayTracer {
 public:
     virtual ~RayTracer() = default;
 
-    // Eyes of the packets that along() traces. `count` <= 16; the rest of the array is ignored.
+    // Eyes of the packets that along() traces. 0 < `count` <= 16; the rest of the array is ignored.
     virtual void set_eyes(const PerRay<Vec2d>& eyes, std::size_t count) = 0;
     // One direction for each eye: 16 unit vectors, the rest ignored as with the eyes.
     virtual void along(const Vec2d* directions, PerRay<std::int32_t>& wall) = 0;
-    // Rays of their own, `count` <= 16.
+    // Rays of their own, 0 < `count` <= 16.
     virtual void trace(const Vec2d* eyes, const Vec2d* directions, std::size_t count,
                        std::int32_t* wall) = 0;
 };

@@ -17,8 +17,9 @@ struct alignas(64) RayPacket {
     PerRay<float> far_m;  // a little beyond nearest_m, so that equally near walls are looked at too
 };
 
-// Takes the wall for those of the rays [first, first + count) that meet it nearer than all before,
-// or as near and with a lower number. far_m becomes float(nearest_m) * 1.000001 + padding_m.
+// Takes the wall for rays that meet it nearer than all before, or as near and with a lower number:
+// those of [first, first + count), and perhaps others of the packet, for which it is as true. far_m
+// becomes float(nearest_m) * 1.000001 + padding_m.
 using WallTest = void (*)(const Wall& wall, std::int32_t id, float padding_m, std::size_t first,
                           std::size_t count, RayPacket& packet);
 

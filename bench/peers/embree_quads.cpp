@@ -14,6 +14,7 @@ struct EmbreeQuads::Impl {
     RTCScene scene = rtcNewScene(device);
     Vec2d origin{0, 0};
     float reach_m = 0;
+    mutable std::vector<Vec2d> directions;  // of the last number of rays
 };
 
 EmbreeQuads::EmbreeQuads(const std::vector<Wall>& walls, const Box& around, double reach_m)
@@ -50,6 +51,13 @@ EmbreeQuads::~EmbreeQuads() {
 
 std::int64_t EmbreeQuads::cast(const std::vector<Vec2d>& eyes, int rays) const {
     const Impl& m = *impl_;
+    if (m.directions.size() != static_cast<std::size_t>(rays)) {
+        m.directions.clear();
+        for (int r = 0; r < rays; ++r) {
+            const double angle = 2 * pi * r / rays;
+            m.directions.emplace_back(std::cos(angle), std::sin(angle));
+        }
+    }
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -64,9 +72,9 @@ std::int64_t EmbreeQuads::cast(const std::vector<Vec2d>& eyes, int rays) const {
     }
     std::int64_t hits = 0;
     for (int r = 0; r < rays; ++r) {
-        const double angle = 2 * pi * r / rays;
-        std::fill_n(packet.ray.dir_x, 16, static_cast<float>(std::cos(angle)));
-        std::fill_n(packet.ray.dir_y, 16, static_cast<float>(std::sin(angle)));
+        const Vec2d& d = m.directions[static_cast<std::size_t>(r)];
+        std::fill_n(packet.ray.dir_x, 16, static_cast<float>(d.x()));
+        std::fill_n(packet.ray.dir_y, 16, static_cast<float>(d.y()));
         std::fill_n(packet.ray.tfar, 16, m.reach_m);
         std::fill_n(packet.hit.geomID, 16, RTC_INVALID_GEOMETRY_ID);
         rtcIntersect16(valid, m.scene, &context, &packet);

@@ -15,7 +15,8 @@ public:
     EmbreeQuads(const std::vector<Wall>& walls, const Box& around, double reach_m);
     ~EmbreeQuads();
 
-    // Casts `rays` evenly spread rays from up to 16 eyes; returns how many met a wall.
+    // Not thread-safe. Casts `rays` evenly spread rays from up to 16 eyes; returns how many met a
+    // wall.
     std::int64_t cast(const std::vector<Vec2d>& eyes, int rays) const;
 
 private:

@@ -15,6 +15,11 @@ class Gate(unittest.TestCase):
         self.assertIn("steps", check.worse("b", "steps", 100, 111))
         self.assertIsNone(check.worse("b", "steps", 100, 50))
 
+    def test_results_stay(self):
+        self.assertIsNone(check.worse("b", "stations", 251, 251))
+        self.assertIn("stations", check.worse("b", "stations", 251, 250))
+        self.assertIn("digest", check.worse("b", "digest", 7, 8))
+
     def test_times_may_grow_by_three_tenths(self):
         self.assertIsNone(check.worse("b", "time", 2.0, 2.59))
         self.assertIn("time", check.worse("b", "time", 2.0, 2.61))
@@ -35,7 +40,13 @@ class Gate(unittest.TestCase):
         slower = {name: dict(values) for name, values in baseline.items()}
         slower["exact_field/town"]["steps"] *= 1.2
         gone = {name: values for name, values in baseline.items() if name != "stage_plan/city"}
-        for now, wrong, want in ((baseline, [], 0), (slower, [], 1), (gone, [], 1),
+        half = {name: dict(values) for name, values in baseline.items()}
+        half["stage_plan/city"]["stations"] /= 2
+        silent = {name: dict(values) for name, values in baseline.items()}
+        del silent["exact_field/town"]["steps"]
+        new = {**baseline, "stage_new/town": {"cells": 1}}
+        for now, wrong, want in ((baseline, [], 0), (slower, [], 1), (gone, [], 1), (half, [], 1),
+                                 (silent, [], 1), (new, [], 1),
                                  (baseline, [("x", "differs")], 1)):
             check.measure = lambda with_times, now=now, wrong=wrong: (now, wrong)
             self.assertEqual(check.main(["--counts"]), want)

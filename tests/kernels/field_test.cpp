@@ -3,6 +3,7 @@
 
 #include "kernels/block_field.h"
 #include "kernels/index.h"
+#include "kernels/locator.h"
 #include "kernels/wall_test.h"
 #include "tests/kernels/scenes.h"
 
@@ -253,6 +254,27 @@ TEST(EmbreeField, WallsOfOneBuildingNeedNoRays) {
     // Outside, one ray past each end of the building; inside none.
     EXPECT_LE(counts.walls, 2 * counts.cells);
     EXPECT_EQ(counts.steps, 64 * counts.cells + counts.walls);
+}
+
+// An eye on a vertex stands in a fan of triangles, whichever of them the walk comes to first.
+TEST(TriangleLocator, TheWayDoesNotMatter) {
+    std::mt19937_64 random(4);
+    const std::vector<Wall> walls = test::scattered_squares(4, random);
+    const Box box = test::bounds_of(walls);
+    const Triangulation mesh = triangulate(walls, box, 20);
+    const TriangleLocator locator(mesh, box);
+    const auto triangles = static_cast<std::int32_t>(mesh.triangles.size());
+    for (std::size_t v = 0; v < 12; ++v) {
+        const Vec2d middle = (walls[v].a + walls[v].b) / 2;
+        for (const Vec2d& eye : {walls[v].a, middle, Vec2d(middle + Vec2d(0.3, 0.7))}) {
+            const std::int32_t found = locator.locate(eye);
+            EXPECT_GE(found, 0);
+            for (std::int32_t from = 0; from < triangles; ++from) {
+                ASSERT_EQ(locator.locate(eye, from), found) << eye.transpose() << " from " << from;
+            }
+        }
+    }
+    EXPECT_EQ(locator.locate({1e5, 1e4}), -1);
 }
 
 }  // namespace
