@@ -51,27 +51,6 @@ Reached paths_from(const Graph& graph, std::int32_t source) {
     return out;
 }
 
-void measure_paths(const Threads& threads, const Graph& graph, Metrics& m) {
-    const auto n = static_cast<std::int64_t>(graph.size());
-    if (n < 2) return;
-    std::vector<Reached> reached(at(n));
-    threads.for_each(n, 8, [&](std::int64_t from, std::int64_t to) {
-        for (std::int64_t s = from; s < to; ++s) {
-            reached[at(s)] = paths_from(graph, static_cast<std::int32_t>(s));
-        }
-    });
-    Reached all;
-    for (const Reached& r : reached) {
-        all.sum += r.sum;
-        all.count += r.count;
-    }
-    const std::int64_t pairs = n * (n - 1);
-    if (all.count > 0) m.wapl = all.sum / static_cast<double>(all.count);
-    m.disconnected_pairs = (pairs - all.count) / 2;
-    m.wapl_penalty100 =
-        (all.sum + 100.0 * static_cast<double>(pairs - all.count)) / static_cast<double>(pairs);
-}
-
 // The smallest overlap on a maximum spanning tree of the main network.
 double bottleneck(const Plan& plan) {
     DisjointSets sets(static_cast<std::int64_t>(plan.stations.size()));
@@ -127,7 +106,55 @@ void measure_pieces(const PlanInput& in, const Plan& plan, const std::vector<Wal
     }
 }
 
+// Ordered pairs of stations that a path joins.
+std::int64_t connected_pairs(const Graph& graph) {
+    std::vector<std::int64_t> members;
+    for (const std::int32_t c : components(graph)) {
+        if (at(c) >= members.size()) members.resize(at(c) + 1, 0);
+        ++members[at(c)];
+    }
+    std::int64_t pairs = 0;
+    for (const std::int64_t m : members) pairs += m * (m - 1);
+    return pairs;
+}
+
 }  // namespace
+
+PathMeasures measure_paths(const Threads& threads, const Graph& graph, std::int64_t most_sources) {
+    PathMeasures m;
+    const std::int64_t n = graph.size();
+    if (n < 2) return m;
+    m.sources = std::min(n, most_sources);
+    std::vector<Reached> reached(at(m.sources));
+    threads.for_each(m.sources, 8, [&](std::int64_t from, std::int64_t to) {
+        for (std::int64_t s = from; s < to; ++s) {
+            reached[at(s)] = paths_from(graph, static_cast<std::int32_t>(s * n / m.sources));
+        }
+    });
+    Reached all;
+    for (const Reached& r : reached) {
+        all.sum += r.sum;
+        all.count += r.count;
+    }
+    if (all.count > 0) m.wapl = all.sum / static_cast<double>(all.count);
+    const std::int64_t pairs = n * (n - 1);
+    const std::int64_t connected = connected_pairs(graph);
+    m.disconnected_pairs = (pairs - connected) / 2;
+    m.wapl_penalty100 =
+        (m.wapl * static_cast<double>(connected) + 100.0 * static_cast<double>(pairs - connected)) /
+        static_cast<double>(pairs);
+    if (m.sources < n && m.sources > 1 && all.count > 0) {
+        double squares = 0;
+        for (const Reached& r : reached) {
+            const double off = r.sum - m.wapl * static_cast<double>(r.count);
+            squares += off * off;
+        }
+        const auto k = static_cast<double>(m.sources);
+        m.standard_error = std::sqrt((1 - k / static_cast<double>(n)) * squares / (k - 1) / k) /
+                           (static_cast<double>(all.count) / k);
+    }
+    return m;
+}
 
 Metrics measure(const Threads& threads, const PlanInput& input, const Plan& plan,
                 const std::vector<Wall>& walls, double range_max_m) {
@@ -141,7 +168,8 @@ Metrics measure(const Threads& threads, const PlanInput& input, const Plan& plan
     m.redundant_links = static_cast<std::int64_t>(plan.links.size()) -
                         static_cast<std::int64_t>(plan.stations.size()) + m.networks;
     m.bottleneck_overlap = bottleneck(plan);
-    measure_paths(threads, graph, m);
+    static_cast<PathMeasures&>(m) =
+        measure_paths(threads, graph, graph.size() <= wapl_of_all ? wapl_of_all : wapl_sample);
     measure_pieces(input, plan, walls, range_max_m, m);
     m.lower_bound = static_cast<std::int64_t>(plan.bound_pieces.size());
     const auto n = static_cast<double>(plan.stations.size());

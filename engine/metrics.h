@@ -8,12 +8,26 @@
 
 namespace vfplan {
 
-struct Metrics {
-    std::int64_t networks = 0;
-    double wapl = 0;                      // over connected ordered pairs, w = 1 - O; 0 for none
+// Shortest weighted paths between stations, w = 1 - O.
+struct PathMeasures {
+    double wapl = 0;                      // over connected ordered pairs; 0 for none
     double wapl_penalty100 = 0;           // the paper's: 100 for each pair without a path
     std::int64_t disconnected_pairs = 0;  // unordered
-    double bottleneck_overlap = 0;        // weakest link that the main network cannot do without
+    std::int64_t sources = 0;             // stations that paths were measured from
+    double standard_error = 0;            // of wapl; 0 when that was all of them
+};
+
+// Paths from at most `most_sources` stations, evenly spread over their numbers, to all others. With
+// fewer than all, WAPL is the ratio of sums over the sample, and the error that of such a ratio.
+PathMeasures measure_paths(const Threads& threads, const Graph& graph, std::int64_t most_sources);
+
+// All pairs up to this many stations; beyond, this many sources.
+inline constexpr std::int64_t wapl_of_all = 20000;
+inline constexpr std::int64_t wapl_sample = 2000;
+
+struct Metrics : PathMeasures {
+    std::int64_t networks = 0;
+    double bottleneck_overlap = 0;  // weakest link that the main network cannot do without
     std::int64_t bridges = 0;
     std::int64_t articulation_stations = 0;
     std::int64_t redundant_links = 0;  // m - n + c

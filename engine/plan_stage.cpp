@@ -122,6 +122,8 @@ nlohmann::ordered_json summary_of(const Planned& p, const CoverageTables& t) {
     j["links"] = p.plan.links.size();
     j["wapl"] = m.wapl;
     j["wapl_penalty100"] = m.wapl_penalty100;
+    j["wapl_sources"] = m.sources;
+    j["wapl_standard_error"] = m.standard_error;
     j["disconnected_pairs"] = m.disconnected_pairs;
     j["bottleneck_overlap"] = m.bottleneck_overlap;
     j["bridges"] = m.bridges;
@@ -233,10 +235,13 @@ std::string plan_text(const Planned& p, const CoverageTables& t, const Config& c
                            nobody, share(m.length_all_m - m.length_coverable_m, m.length_all_m));
     }
     out += fmt::format(
-        "network      WAPL {:.3f}, weakest needed overlap {:.3f}, {} bridge{}, {} "
+        "network      WAPL {:.3f}{}, weakest needed overlap {:.3f}, {} bridge{}, {} "
         "articulation stations\n",
-        m.wapl, m.bottleneck_overlap, m.bridges, m.bridges == 1 ? "" : "s",
-        m.articulation_stations);
+        m.wapl,
+        m.standard_error > 0
+            ? fmt::format(" +- {:.3f} (from {} of the stations)", m.standard_error, m.sources)
+            : "",
+        m.bottleneck_overlap, m.bridges, m.bridges == 1 ? "" : "s", m.articulation_stations);
     return out;
 }
 

@@ -81,6 +81,35 @@ TEST(Wapl, ThreadsChangeNothing) {
     EXPECT_GT(of_graph(one_network, links, 2).wapl, 0);
 }
 
+// A ring seen from any station is the same ring: a sample says what all say, without error.
+TEST(Wapl, ASampleOfARingIsExact) {
+    std::vector<OverlapPair> ring;
+    for (std::int32_t v = 0; v + 1 < 30; ++v) ring.push_back({v, v + 1, 0.5});
+    ring.insert(ring.begin() + 1, {0, 29, 0.5});
+    const Graph graph = make_graph(30, ring);
+    const PathMeasures all = measure_paths(Threads(1), graph, 30);
+    const PathMeasures some = measure_paths(Threads(2), graph, 7);
+    EXPECT_EQ(all.sources, 30);
+    EXPECT_EQ(all.standard_error, 0);
+    EXPECT_EQ(some.sources, 7);
+    EXPECT_DOUBLE_EQ(some.wapl, all.wapl);
+    EXPECT_DOUBLE_EQ(some.wapl_penalty100, all.wapl_penalty100);
+    EXPECT_NEAR(some.standard_error, 0, 1e-12);
+}
+
+TEST(Wapl, ASampleIsAsFarOffAsItSays) {
+    double beyond = 0;
+    for (int seed = 0; seed < 20; ++seed) {
+        const HandMade h = test::random_hand_made(seed, 80, 1);
+        const PathMeasures all = measure_paths(Threads(1), h.graph, 80);
+        const PathMeasures some = measure_paths(Threads(1), h.graph, 25);
+        EXPECT_EQ(some.disconnected_pairs, all.disconnected_pairs);
+        EXPECT_GT(some.standard_error, 0);
+        beyond += std::abs(some.wapl - all.wapl) > 2 * some.standard_error ? 1 : 0;
+    }
+    EXPECT_LE(beyond, 4);
+}
+
 TEST(Network, BottleneckIsTheWeakestOfTheBestTree) {
     // The cycle's weakest link 0.3 can be done without; 0.4 then is the weakest.
     EXPECT_EQ(of_graph({0, 0, 0, 0}, {{0, 1, 0.9}, {0, 3, 0.3}, {1, 2, 0.4}, {2, 3, 0.8}})
