@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <queue>
 #include <tuple>
 
@@ -28,7 +29,11 @@ public:
           members_(members),
           wanted_(wanted),
           chosen_(at(input.graph.size()), 0),
-          overlap_(at(input.graph.size()), 0) {}
+          overlap_(at(input.graph.size()), 0),
+          hops_(at(input.graph.size()), most_hops + 1),
+          step_(at(input.graph.size()), 0),
+          before_(at(input.graph.size()), -1),
+          at_hops_(most_hops + 1) {}
 
     Chosen run(const std::vector<std::int32_t>& forced) {
         take(forced.empty() ? seed() : forced.front());
@@ -39,7 +44,8 @@ public:
             const std::int32_t next = best_of_frontier();
             if (next >= 0) {
                 take(next);
-            } else if (!take_path([&](std::int32_t c) { return gain_m(c) > 0; })) {
+            } else if (!take_nearest_gain() &&
+                       !take_path([&](std::int32_t c) { return gain_m(c) > 0; })) {
                 return std::move(order_);
             }
         }
@@ -83,6 +89,86 @@ private:
             overlap_[at(n)] = overlap;
             frontier_.push({gain_m(n), overlap, n});
         });
+        update_hops(c);
+    }
+
+    // Hops from the chosen set, as far as most_hops; they only shrink.
+    void update_hops(std::int32_t c) {
+        hops_[at(c)] = 0;
+        std::vector<std::int32_t> level = {c};
+        for (std::int32_t hops = 1; hops <= most_hops && !level.empty(); ++hops) {
+            std::vector<std::int32_t> next;
+            for (const std::int32_t v : level) {
+                in_.graph.each(v, [&](std::int32_t n, double) {
+                    if (hops_[at(n)] <= hops) return;
+                    hops_[at(n)] = hops;
+                    at_hops_[at(hops)].push_back(n);
+                    next.push_back(n);
+                });
+            }
+            level = std::move(next);
+        }
+    }
+
+    // The candidates with a gain that are fewest hops away. What has none, or has come nearer, is
+    // forgotten here for good.
+    const std::vector<std::int32_t>& nearest_gains(std::int32_t& hops) {
+        for (hops = 1; hops <= most_hops; ++hops) {
+            std::erase_if(at_hops_[at(hops)],
+                          [&](std::int32_t c) { return hops_[at(c)] != hops || gain_m(c) <= 0; });
+            if (!at_hops_[at(hops)].empty()) return at_hops_[at(hops)];
+        }
+        hops = 0;
+        return at_hops_[0];
+    }
+
+    // As take_path() to a candidate with a gain, but looking only at the ways that lead there.
+    // False when there is none within most_hops.
+    bool take_nearest_gain() {
+        std::int32_t hops = 0;
+        std::vector<std::vector<std::int32_t>> levels = {nearest_gains(hops)};
+        if (hops == 0) return false;
+        std::vector<std::int32_t> touched = levels.back();
+        for (const std::int32_t c : touched) before_[at(c)] = reached;
+        for (std::int32_t h = hops; h > 1; --h) {
+            std::vector<std::int32_t> nearer;
+            for (const std::int32_t v : levels.back()) {
+                in_.graph.each(v, [&](std::int32_t n, double) {
+                    if (hops_[at(n)] != h - 1 || before_[at(n)] == reached) return;
+                    before_[at(n)] = reached;
+                    nearer.push_back(n);
+                    touched.push_back(n);
+                });
+            }
+            levels.push_back(std::move(nearer));
+        }
+        std::reverse(levels.begin(), levels.end());
+        for (const std::int32_t c : levels.front()) step_[at(c)] = overlap_[at(c)];
+        for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+            std::sort(levels[k].begin(), levels[k].end());
+            for (const std::int32_t v : levels[k]) {
+                in_.graph.each(v, [&](std::int32_t n, double overlap) {
+                    const bool on_the_way =
+                        hops_[at(n)] == hops_[at(v)] + 1 && before_[at(n)] != nowhere;
+                    if (!on_the_way || overlap <= step_[at(n)]) return;
+                    step_[at(n)] = overlap;
+                    before_[at(n)] = v;
+                });
+            }
+        }
+        std::int32_t goal = levels.back().front();
+        const auto key = [&](std::int32_t c) { return std::tuple(gain_m(c), step_[at(c)], -c); };
+        for (const std::int32_t c : levels.back()) {
+            if (key(c) > key(goal)) goal = c;
+        }
+        std::vector<std::int32_t> path;
+        for (std::int32_t v = goal; v >= 0; v = before_[at(v)]) path.push_back(v);
+        for (const std::int32_t c : touched) {
+            before_[at(c)] = nowhere;
+            step_[at(c)] = 0;
+        }
+        for (auto v = path.rbegin(); v != path.rend(); ++v) take(*v);
+        return true;
     }
 
     // Gains only shrink, so an entry whose gain is still true is the best one.
@@ -149,11 +235,19 @@ private:
         return false;
     }
 
+    static constexpr std::int32_t most_hops = 8;  // beyond, take_path() looks everywhere
+    static constexpr std::int32_t nowhere = -1;   // before_: not on a way
+    static constexpr std::int32_t reached = -2;   // before_: on a way, nothing before it yet
+
     const PlanInput& in_;
     const std::vector<std::int32_t>& members_;
     std::vector<std::uint8_t>& wanted_;
     std::vector<std::uint8_t> chosen_;
-    std::vector<double> overlap_;  // highest with the chosen set
+    std::vector<double> overlap_;     // highest with the chosen set
+    std::vector<std::int32_t> hops_;  // from the chosen set; most_hops + 1 for farther
+    std::vector<double> step_;        // best overlap with the step before, on the ways at hand
+    std::vector<std::int32_t> before_;
+    std::vector<std::vector<std::int32_t>> at_hops_;  // candidates by hops; some out of date
     std::priority_queue<Entry> frontier_;
     Chosen order_;
 };
