@@ -52,10 +52,11 @@ unsigned neighbourhood(const Grid& grid, const Raster<std::uint8_t>& set, std::i
     const std::int32_t iy = grid.iy(cell);
     unsigned bits = 0;
     if (ix > 0 && iy > 0 && ix + 1 < grid.nx && iy + 1 < grid.ny) {
-        const std::uint8_t* here = set.data() + cell;
-        const std::ptrdiff_t up = grid.nx;
-        const std::ptrdiff_t step[8] = {1, up + 1, up, up - 1, -1, -up - 1, -up, 1 - up};
-        for (unsigned k = 0; k < 8; ++k) bits |= (here[step[k]] != 0 ? 1U : 0U) << k;
+        const std::int64_t up = grid.nx;
+        const std::array<std::int64_t, 8> step = {1, up + 1, up, up - 1, -1, -up - 1, -up, 1 - up};
+        for (unsigned k = 0; k < 8; ++k) {
+            if (set[static_cast<std::size_t>(cell + step[k])] != 0) bits |= 1U << k;
+        }
         return bits;
     }
     for (unsigned k = 0; k < 8; ++k) {
