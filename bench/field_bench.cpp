@@ -161,6 +161,15 @@ std::vector<std::vector<Vec2d>> blocks(const Sample& s) {
     return out;
 }
 
+void per_ray(benchmark::State& state, const std::vector<std::vector<Vec2d>>& groups, double rays) {
+    std::int64_t cells = 0;
+    for (const auto& eyes : groups) cells += static_cast<std::int64_t>(eyes.size());
+    per_cell(state, cells);
+    state.counters["rays_per_cell"] = rays;
+    state.counters["rays_per_s"] = benchmark::Counter(
+        rays * static_cast<double>(cells), benchmark::Counter::kIsIterationInvariantRate);
+}
+
 // As many rays per cell as embree_field casts in all (rounded up), in the kernel's own packets
 // and with its own wall test, and nothing done with the answers.
 void bare_packets(benchmark::State& state, const std::string& site) {
@@ -184,8 +193,6 @@ void bare_packets(benchmark::State& state, const std::string& site) {
     const auto groups = blocks(*s);
     const auto tracer = scene.tracer();
     PerRay<std::int32_t> wall{};
-    std::int64_t cells = 0;
-    for (const auto& eyes : groups) cells += static_cast<std::int64_t>(eyes.size());
     for (auto _ : state) {
         for (const auto& group : groups) {
             PerRay<Vec2d> eyes;
@@ -198,11 +205,7 @@ void bare_packets(benchmark::State& state, const std::string& site) {
             }
         }
     }
-    per_cell(state, cells);
-    state.counters["rays_per_cell"] = static_cast<double>(rays);
-    state.counters["rays_per_s"] =
-        benchmark::Counter(static_cast<double>(rays) * static_cast<double>(cells),
-                           benchmark::Counter::kIsIterationInvariantRate);
+    per_ray(state, groups, static_cast<double>(rays));
 }
 
 // The same with Embree's own quads.
@@ -213,16 +216,10 @@ void bare_quads(benchmark::State& state, const std::string& site) {
     const peers::EmbreeQuads quads(s->scene->walls(), s->scene->extent(),
                                    s->scene->scanner().range_max_m);
     const auto groups = blocks(*s);
-    std::int64_t cells = 0;
-    for (const auto& eyes : groups) cells += static_cast<std::int64_t>(eyes.size());
     for (auto _ : state) {
         for (const auto& group : groups) benchmark::DoNotOptimize(quads.cast(group, rays));
     }
-    per_cell(state, cells);
-    state.counters["rays_per_cell"] = rays;
-    state.counters["rays_per_s"] =
-        benchmark::Counter(static_cast<double>(rays) * static_cast<double>(cells),
-                           benchmark::Counter::kIsIterationInvariantRate);
+    per_ray(state, groups, rays);
 }
 
 // Whole views with their spans, as candidates need them: one eye after the other.

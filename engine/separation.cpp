@@ -50,7 +50,7 @@ bool Separation::search(std::int32_t node, Until until) {
     graph_.each(node, [&](std::int32_t n, double) {
         if (inside_[at(n)] == 0) return;
         side_of_[at(n)] = static_cast<std::int32_t>(sides_.size());
-        sides_.push_back({{n}, 0, sides_.size(), false});
+        sides_.push_back({{n}, 0, sides_.size()});
     });
     const std::size_t count = sides_.size();
     apart_ = count;
@@ -66,9 +66,11 @@ bool Separation::search(std::int32_t node, Until until) {
         bool closed = false;
         for (std::size_t i = 0; i < count; ++i) {
             if (sides_[i].joined_to != i) continue;
-            sides_[i].exhausted = sides_[i].exhausted || finished(i);
-            if (sides_[i].exhausted) closed = true;
-            if (!sides_[i].exhausted) ++going;
+            if (finished(i)) {
+                closed = true;
+            } else {
+                ++going;
+            }
         }
         if (closed && until == Until::all_met) break;  // one side holds nothing of the others
     }

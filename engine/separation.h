@@ -31,7 +31,6 @@ private:
         std::vector<std::int32_t> queue;
         std::size_t next = 0;
         std::size_t joined_to = 0;  // itself, or the side that it met
-        bool exhausted = false;
     };
     enum class Until { all_met, two_met };
 
