@@ -7,8 +7,10 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "engine/ending.h"
 #include "engine/generate.h"
 #include "engine/pipeline.h"
+#include "engine/ranks.h"
 #include "engine/stop.h"
 #include "io/files.h"
 #include "kernels/error.h"
@@ -69,8 +71,8 @@ void add_job(CLI::App& app, Shared& s) {
     add_common(app, s);
 }
 
-int run_or_precompute(const Shared& s, bool plan) {
-    Progress progress(s.quiet);
+int run_or_precompute(const Shared& s, bool plan, const Ranks& ranks) {
+    Progress progress(s.quiet || !ranks.leader());
     const Config config = read_config(s.job, s.sets);
     JobOptions options;
     options.out =
@@ -83,8 +85,12 @@ int run_or_precompute(const Shared& s, bool plan) {
     options.fresh = s.fresh;
     options.dry_run = s.dry_run;
     options.plan = plan;
-    const std::string text = run_job(config, options, progress);
-    if (!s.quiet) fmt::print("{}", text);
+    if (const std::string warning = ranks.binding_warning(); !warning.empty()) {
+        progress.note("warning: " + warning);
+    }
+    std::string text;
+    ranks.lead([&] { text = run_job(config, options, progress); });
+    if (!s.quiet && ranks.leader()) fmt::print("{}", text);
     return 0;
 }
 
@@ -113,8 +119,7 @@ int verify(const Shared& s) {
     return r.good ? 0 : 1;
 }
 
-int dispatch(int argc, char** argv) {
-    watch_signals();
+int dispatch(int argc, char** argv, const Ranks& ranks) {
     if (const char* isa = std::getenv("VFPLAN_ISA"); isa != nullptr && *isa != '\0') {
         limit_isa(isa);
     }
@@ -123,8 +128,8 @@ int dispatch(int argc, char** argv) {
         "plans.",
         "vfplan"};
     app.require_subcommand(1);
-    app.set_version_flag("--version",
-                         fmt::format("vfplan {} ({}, {})", version, version_git, build_type));
+    app.set_version_flag("--version", fmt::format("vfplan {} ({}, {}, {})", version, version_git,
+                                                  build_type, Ranks::built_with()));
     app.footer(exit_codes);
     Shared s;
     GenerateOptions site;
@@ -162,12 +167,13 @@ int dispatch(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& e) {
-        return app.exit(e);  // --help, --version
+        return ranks.leader() ? app.exit(e) : 0;  // --help, --version
     } catch (const CLI::ParseError& e) {
         throw UsageError(fmt::format("{}; see vfplan --help", e.what()));
     }
-    if (run->parsed()) return run_or_precompute(s, true);
-    if (precompute->parsed()) return run_or_precompute(s, false);
+    if (run->parsed()) return run_or_precompute(s, true, ranks);
+    if (precompute->parsed()) return run_or_precompute(s, false, ranks);
+    if (!ranks.leader()) return 0;  // the other commands are for one process
     if (check->parsed()) return verify(s);
     if (make->parsed()) return generate(site, site_out);
     if (list->parsed()) {
@@ -183,21 +189,8 @@ int dispatch(int argc, char** argv) {
 }  // namespace
 
 int run_cli(int argc, char** argv) {
-    try {
-        return dispatch(argc, argv);
-    } catch (const Error& e) {
-        fmt::print(stderr, "vfplan: {}\n", e.what());
-        return static_cast<int>(e.code());
-    } catch (const std::bad_alloc&) {
-        fmt::print(stderr,
-                   "vfplan: out of memory; choose larger cells or a crop, --dry-run tells "
-                   "what a job needs\n");
-        return static_cast<int>(Exit::io);
-    } catch (const std::exception& e) {
-        fmt::print(stderr, "vfplan: {}; this is a bug, please report it with the job file\n",
-                   e.what());
-        return 70;
-    }
+    watch_signals();
+    return run_to_end([&](const Ranks& ranks) { return dispatch(argc, argv, ranks); });
 }
 
 }  // namespace vfplan

@@ -27,6 +27,10 @@ public:
     // Runs inside the threads' arena, for libraries that use TBB themselves.
     void run(const std::function<void()>& body) const;
 
+    // Runs body so that its thread, while it waits in a loop of the body, takes up parts of that
+    // loop only: not a part of the loop around, which may be long.
+    static void apart(const std::function<void()>& body);
+
 private:
     struct Impl;
     std::unique_ptr<Impl> impl_;

@@ -1,4 +1,5 @@
-// Polite ends: SIGTERM and SIGINT are noted, and the work stops where it can be taken up again.
+// Polite ends: SIGTERM, SIGINT and SIGUSR1 are noted, and the work stops where it can be taken up
+// again.
 #pragma once
 
 #include "kernels/error.h"
@@ -10,8 +11,13 @@ struct Stopped : Error {
     explicit Stopped(const std::string& m) : Error(Exit::stopped, m) {}
 };
 
-// From now on the two signals set a mark; a second one of them ends the program at once.
+// From now on the signals set a mark. A second SIGTERM or SIGINT ends the program at once; SIGUSR1
+// never does: mpirun forwards it as it comes, where it makes a kill of SIGTERM, and a batch script
+// can send it beside the SIGTERM that Slurm sends.
 void watch_signals();
+
+// True when a signal has come. Thread-safe.
+bool stop_asked();
 
 // Throws Stopped when a signal has come. Thread-safe.
 void stop_if_asked();

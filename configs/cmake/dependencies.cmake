@@ -52,3 +52,19 @@ endforeach()
 add_library(vfplan::hdf5 INTERFACE IMPORTED)
 target_include_directories(vfplan::hdf5 SYSTEM INTERFACE ${VFPLAN_HDF5_INCLUDE})
 target_link_libraries(vfplan::hdf5 INTERFACE ${VFPLAN_HDF5_HL} ${VFPLAN_HDF5})
+
+# MPI, its C interface, where it is wanted and found. Its C++ interface would be a library more.
+set(VFPLAN_WITH_MPI OFF)
+if(NOT VFPLAN_MPI MATCHES "^(AUTO|ON|OFF)$")
+    message(FATAL_ERROR "VFPLAN_MPI is ${VFPLAN_MPI}, but only AUTO, ON and OFF have a meaning")
+elseif(NOT VFPLAN_MPI STREQUAL OFF)
+    enable_language(C)  # FindMPI looks for the interfaces of enabled languages only
+    find_package(MPI COMPONENTS C QUIET)
+    if(MPI_C_FOUND)
+        set(VFPLAN_WITH_MPI ON)
+    elseif(VFPLAN_MPI STREQUAL ON)
+        message(FATAL_ERROR "VFPLAN_MPI is ON, but no MPI was found. Install one (Debian: "
+            "libopenmpi-dev openmpi-bin), or leave it at AUTO: the program is the same for one process")
+    endif()
+endif()
+message(STATUS "MPI: ${VFPLAN_WITH_MPI} ${MPI_C_VERSION}")
