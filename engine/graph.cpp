@@ -2,7 +2,6 @@
 #include "kernels/index.h"
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace vfplan {
 Graph make_graph(std::int32_t nodes, const std::vector<OverlapPair>& pairs) {
@@ -27,46 +26,112 @@ Graph make_graph(std::int32_t nodes, const std::vector<OverlapPair>& pairs) {
     return g;
 }
 
+std::vector<PairBlock> overlap_pairs(const Threads& threads, const PieceRows& rows,
+                                     const PieceIndex& index,
+                                     const std::vector<double>& piece_length_m, OverlapRatio ratio,
+                                     double threshold) {
+    const std::vector<SeenTotal> totals = seen_totals(rows, piece_length_m);
+    constexpr std::int32_t block = 256;
+    std::vector<PairBlock> out(at((rows.size() + block - 1) / block));
+    const auto find = [&](std::int32_t r, SharedLengths& shared, std::vector<OverlapPair>& found) {
+        for (const std::int32_t p : rows.row(r)) {
+            const std::span<const std::int32_t> viewers = index.rows_of(p);
+            for (auto n = std::upper_bound(viewers.begin(), viewers.end(), r); n != viewers.end();
+                 ++n) {
+                shared.add(*n, piece_length_m[at(p)]);
+            }
+        }
+        const std::size_t first = found.size();
+        shared.take([&](std::int32_t n, double length_m) {
+            SeenJointly joint{length_m, 0, 0};
+            // The angle from the other side is not in the index.
+            if (by_angle(ratio)) joint = seen_jointly(rows, piece_length_m, r, n);
+            const double o = overlap(ratio, totals[at(r)], totals[at(n)], joint);
+            if (o > 0 && o >= threshold) found.push_back({r, n, o});
+        });
+        std::sort(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(),
+                  [](const OverlapPair& a, const OverlapPair& b) { return a.to < b.to; });
+        return static_cast<std::int32_t>(found.size() - first);
+    };
+    threads.for_each(static_cast<std::int64_t>(out.size()), 1,
+                     [&](std::int64_t from, std::int64_t to) {
+                         SharedLengths shared;
+                         std::vector<OverlapPair> found;
+                         for (std::int64_t b = from; b < to; ++b) {
+                             const auto first = static_cast<std::int32_t>(b) * block;
+                             const std::int32_t last = std::min(rows.size(), first + block);
+                             PairBlock& mine = out[at(b)];
+                             found.clear();
+                             for (std::int32_t r = first; r < last; ++r) {
+                                 mine.count.push_back(find(r, shared, found));
+                             }
+                             mine.to.reserve(found.size());
+                             mine.overlap.reserve(found.size());
+                             for (const OverlapPair& p : found) {
+                                 mine.to.push_back(p.to);
+                                 mine.overlap.push_back(p.overlap);
+                             }
+                         }
+                     });
+    return out;
+}
+
+Graph make_graph(std::vector<PairBlock> blocks) {
+    Graph g;
+    for (const PairBlock& b : blocks) {
+        for (const std::int32_t n : b.count) g.begin.push_back(n);
+    }
+    for (const PairBlock& b : blocks) {
+        for (const std::int32_t n : b.to) ++g.begin[at(n) + 1];
+    }
+    for (std::size_t v = 1; v < g.begin.size(); ++v) g.begin[v] += g.begin[v - 1];
+    g.to.resize(at(g.begin.back()));
+    g.overlap.resize(g.to.size());
+    std::vector<std::int64_t> next(g.begin.begin(), g.begin.end() - 1);
+    const auto add = [&](std::int32_t from, std::int32_t to, double overlap) {
+        const auto i = at(next[at(from)]++);
+        g.to[i] = to;
+        g.overlap[i] = overlap;
+    };
+    // Rows ascend: when a row's turn comes, it has all its smaller neighbours already.
+    std::int32_t from = 0;
+    for (PairBlock& b : blocks) {
+        std::size_t i = 0;
+        for (const std::int32_t n : b.count) {
+            for (const std::size_t end = i + at(n); i < end; ++i) {
+                add(from, b.to[i], b.overlap[i]);
+                add(b.to[i], from, b.overlap[i]);
+            }
+            ++from;
+        }
+        b = {};
+    }
+    return g;
+}
+
 Graph overlap_graph(const Threads& threads, const Pieces& pieces, const CoverageTable& table,
                     OverlapRatio ratio, double threshold) {
-    const std::int64_t rows = table.rows();
-    const InvertedIndex index = invert(table, pieces.size());
-    std::vector<SeenTotal> totals(at(rows));
-    for (std::int64_t r = 0; r < rows; ++r) {
-        totals[at(r)] = seen_total(pieces, table.row_begin(r), table.row_end(r));
-    }
-    constexpr std::int64_t block = 64;
-    std::vector<std::vector<OverlapPair>> found(at((rows + block - 1) / block));
-    threads.for_each(
-        static_cast<std::int64_t>(found.size()), 1, [&](std::int64_t from, std::int64_t to) {
-            OverlapScratch scratch;
-            for (std::int64_t b = from; b < to; ++b) {
-                const std::int64_t last = std::min(rows, (b + 1) * block);
-                for (std::int64_t r = b * block; r < last; ++r) {
-                    overlaps_of_row(pieces, table, index, totals, ratio, threshold,
-                                    static_cast<std::int32_t>(r), scratch, found[at(b)]);
-                }
-            }
-        });
-    std::vector<OverlapPair> pairs;
-    for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
-    return make_graph(static_cast<std::int32_t>(rows), pairs);
+    const PieceRows rows = piece_rows(table, by_angle(ratio));
+    return make_graph(overlap_pairs(threads, rows, index_of(rows, pieces.size()),
+                                    piece_lengths_m(pieces), ratio, threshold));
 }
 
 Graph induced(const Graph& graph, const std::vector<std::int32_t>& nodes) {
-    std::unordered_map<std::int32_t, std::int32_t> position;
+    std::vector<std::int32_t> position(at(graph.size()), -1);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-        position.emplace(nodes[i], static_cast<std::int32_t>(i));
+        position[at(nodes[i])] = static_cast<std::int32_t>(i);
     }
-    std::vector<OverlapPair> pairs;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        graph.each(nodes[i], [&](std::int32_t n, double overlap) {
-            const auto found = position.find(n);
-            if (found == position.end() || found->second <= static_cast<std::int32_t>(i)) return;
-            pairs.push_back({static_cast<std::int32_t>(i), found->second, overlap});
+    Graph part;
+    part.begin.reserve(nodes.size() + 1);
+    for (const std::int32_t v : nodes) {
+        graph.each(v, [&](std::int32_t n, double overlap) {
+            if (position[at(n)] < 0) return;
+            part.to.push_back(position[at(n)]);
+            part.overlap.push_back(overlap);
         });
+        part.begin.push_back(static_cast<std::int64_t>(part.to.size()));
     }
-    return make_graph(static_cast<std::int32_t>(nodes.size()), pairs);
+    return part;
 }
 
 std::vector<std::int32_t> components(const Graph& graph) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/parallel.h"
-#include "kernels/overlap.h"
+#include "engine/piece_rows.h"
 
 namespace vfplan {
 
@@ -29,7 +29,25 @@ struct Graph {
 
 Graph make_graph(std::int32_t nodes, const std::vector<OverlapPair>& pairs);
 
-// All pairs of rows with O >= threshold, through the inverted index, in parallel.
+// The pairs of some consecutive rows with the rows after them: `count` of each row, one after
+// another, ascending.
+struct PairBlock {
+    std::vector<std::int32_t> count;
+    std::vector<std::int32_t> to;
+    std::vector<double> overlap;
+};
+
+// All pairs of rows with O >= threshold (and > 0) by blocks of consecutive rows, in parallel. Time
+// is the number of pieces that rows share, not of pairs of rows. `index` is of the rows.
+std::vector<PairBlock> overlap_pairs(const Threads& threads, const PieceRows& rows,
+                                     const PieceIndex& index,
+                                     const std::vector<double>& piece_length_m, OverlapRatio ratio,
+                                     double threshold);
+
+// The graph of such pairs, which it eats up block by block.
+Graph make_graph(std::vector<PairBlock> blocks);
+
+// Both at once, from a coverage table.
 Graph overlap_graph(const Threads& threads, const Pieces& pieces, const CoverageTable& table,
                     OverlapRatio ratio, double threshold);
 

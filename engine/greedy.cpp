@@ -24,39 +24,45 @@ struct Entry {
 class Greedy {
 public:
     Greedy(const PlanInput& input, const std::vector<std::int32_t>& members,
-           std::vector<std::uint8_t>& wanted)
+           std::vector<std::uint8_t>& wanted, Workspace& work)
         : in_(input),
           members_(members),
           wanted_(wanted),
-          chosen_(at(input.graph.size()), 0),
-          overlap_(at(input.graph.size()), 0),
-          hops_(at(input.graph.size()), most_hops + 1),
-          step_(at(input.graph.size()), 0),
-          before_(at(input.graph.size()), -1),
+          chosen_(work.mark),
+          overlap_(work.overlap),
+          hops_(work.hops),
+          step_(work.step),
+          before_(work.before),
           at_hops_(most_hops + 1) {}
 
+    // Leaves the work space as it was.
     Chosen run(const std::vector<std::int32_t>& forced) {
         take(forced.empty() ? seed() : forced.front());
         for (const std::int32_t v : forced) {
-            if (chosen_[at(v)] == 0) take_path([&](std::int32_t c) { return c == v; });
+            if (chosen_[at(v)] == 0) take_way_to(v);
         }
-        while (true) {
+        for (bool more = true; more;) {
             const std::int32_t next = best_of_frontier();
             if (next >= 0) {
                 take(next);
-            } else if (!take_nearest_gain() &&
-                       !take_path([&](std::int32_t c) { return gain_m(c) > 0; })) {
-                return std::move(order_);
+            } else {
+                more = take_nearest_gain();
             }
         }
+        for (const std::int32_t c : members_) {
+            chosen_[at(c)] = 0;
+            overlap_[at(c)] = 0;
+            hops_[at(c)] = Workspace::far_away;
+        }
+        return std::move(order_);
     }
 
 private:
     // Length that a candidate would add.
     double gain_m(std::int32_t c) const {
         double sum = 0;
-        for (const Seen* s = in_.table.row_begin(c); s != in_.table.row_end(c); ++s) {
-            if (wanted_[at(s->piece)] != 0) sum += in_.pieces.length_m(s->piece);
+        for (const std::int32_t p : in_.rows.row(c)) {
+            if (wanted_[at(p)] != 0) sum += in_.piece_length_m[at(p)];
         }
         return sum;
     }
@@ -81,9 +87,7 @@ private:
     void take(std::int32_t c) {
         chosen_[at(c)] = 1;
         order_.push_back(c);
-        for (const Seen* s = in_.table.row_begin(c); s != in_.table.row_end(c); ++s) {
-            wanted_[at(s->piece)] = 0;
-        }
+        for (const std::int32_t p : in_.rows.row(c)) wanted_[at(p)] = 0;
         in_.graph.each(c, [&](std::int32_t n, double overlap) {
             if (chosen_[at(n)] != 0 || overlap <= overlap_[at(n)]) return;
             overlap_[at(n)] = overlap;
@@ -103,6 +107,7 @@ private:
                     if (hops_[at(n)] <= hops) return;
                     hops_[at(n)] = hops;
                     at_hops_[at(hops)].push_back(n);
+                    if (hops == most_hops) rim_.push_back(n);
                     next.push_back(n);
                 });
             }
@@ -110,24 +115,64 @@ private:
         }
     }
 
-    // The candidates with a gain that are fewest hops away. What has none, or has come nearer, is
-    // forgotten here for good.
-    const std::vector<std::int32_t>& nearest_gains(std::int32_t& hops) {
-        for (hops = 1; hops <= most_hops; ++hops) {
-            std::erase_if(at_hops_[at(hops)],
+    // Takes the fewest hops from the chosen set to a candidate with a gain; false when there is
+    // none. Among those equally far: most gain, then highest overlap with the step before it, then
+    // lowest id.
+    bool take_nearest_gain() {
+        // What has no gain, or has come nearer, is forgotten here for good.
+        for (std::int32_t hops = 1; hops <= most_hops; ++hops) {
+            std::vector<std::int32_t>& there = at_hops_[at(hops)];
+            std::erase_if(there,
                           [&](std::int32_t c) { return hops_[at(c)] != hops || gain_m(c) <= 0; });
-            if (!at_hops_[at(hops)].empty()) return at_hops_[at(hops)];
+            if (!there.empty()) {
+                take_way(there, hops);
+                return true;
+            }
         }
-        hops = 0;
-        return at_hops_[0];
+        for (std::vector<std::int32_t> level = rim(); !level.empty(); level = beyond(level)) {
+            std::vector<std::int32_t> goals = level;
+            std::erase_if(
+                goals, [&](std::int32_t c) { return hops_[at(c)] == most_hops || gain_m(c) <= 0; });
+            if (!goals.empty()) {
+                take_way(goals, hops_[at(goals.front())]);
+                return true;
+            }
+        }
+        return false;
     }
 
-    // As take_path() to a candidate with a gain, but looking only at the ways that lead there.
-    // False when there is none within most_hops.
-    bool take_nearest_gain() {
-        std::int32_t hops = 0;
-        std::vector<std::vector<std::int32_t>> levels = {nearest_gains(hops)};
-        if (hops == 0) return false;
+    // Takes the fewest hops from the chosen set to v.
+    // REQUIRES: v is joined to the chosen set.
+    void take_way_to(std::int32_t v) {
+        std::vector<std::int32_t> level = rim();
+        while (hops_[at(v)] == Workspace::far_away) level = beyond(level);
+        take_way({v}, hops_[at(v)]);
+    }
+
+    // What is most_hops away.
+    const std::vector<std::int32_t>& rim() {
+        std::erase_if(rim_, [&](std::int32_t c) { return hops_[at(c)] != most_hops; });
+        return rim_;
+    }
+
+    // What is one hop beyond all that is at `level`. Known until the next way is taken.
+    std::vector<std::int32_t> beyond(const std::vector<std::int32_t>& level) {
+        std::vector<std::int32_t> out;
+        for (const std::int32_t v : level) {
+            in_.graph.each(v, [&](std::int32_t n, double) {
+                if (hops_[at(n)] <= hops_[at(v)] + 1) return;
+                hops_[at(n)] = hops_[at(v)] + 1;
+                out.push_back(n);
+            });
+        }
+        beyond_.insert(beyond_.end(), out.begin(), out.end());
+        return out;
+    }
+
+    // Takes the best way to one of `goals`, all of them so many hops away, looking only at the
+    // ways that lead there.
+    void take_way(const std::vector<std::int32_t>& goals, std::int32_t hops) {
+        std::vector<std::vector<std::int32_t>> levels = {goals};
         std::vector<std::int32_t> touched = levels.back();
         for (const std::int32_t c : touched) before_[at(c)] = reached;
         for (std::int32_t h = hops; h > 1; --h) {
@@ -167,8 +212,9 @@ private:
             before_[at(c)] = nowhere;
             step_[at(c)] = 0;
         }
+        for (const std::int32_t c : beyond_) hops_[at(c)] = Workspace::far_away;
+        beyond_.clear();
         for (auto v = path.rbegin(); v != path.rend(); ++v) take(*v);
-        return true;
     }
 
     // Gains only shrink, so an entry whose gain is still true is the best one.
@@ -187,67 +233,21 @@ private:
         return -1;
     }
 
-    // Takes the fewest hops from the chosen set to a candidate that `is_goal` likes. Among goals
-    // equally far: most gain, then highest overlap with the step before it, then lowest id.
-    template <class F>
-    bool take_path(F&& is_goal) {
-        std::vector<std::int32_t> before(at(in_.graph.size()), -1);
-        std::vector<double> step(before.size(), 0);
-        std::vector<std::int32_t> level = order_;
-        std::vector<std::uint8_t> seen = chosen_;
-        while (!level.empty()) {
-            std::sort(level.begin(), level.end());
-            std::vector<std::int32_t> next;
-            for (const std::int32_t v : level) {
-                in_.graph.each(v, [&](std::int32_t n, double overlap) {
-                    if (seen[at(n)] == 1) return;
-                    if (seen[at(n)] == 0) {
-                        seen[at(n)] = 2;  // reached in this level
-                        next.push_back(n);
-                    }
-                    if (overlap > step[at(n)]) {
-                        step[at(n)] = overlap;
-                        before[at(n)] = v;
-                    }
-                });
-            }
-            std::int32_t goal = -1;
-            std::tuple<double, double, std::int32_t> best;
-            for (const std::int32_t n : next) {
-                seen[at(n)] = 1;
-                if (!is_goal(n)) continue;
-                const std::tuple key(gain_m(n), step[at(n)], -n);
-                if (goal < 0 || key > best) {
-                    goal = n;
-                    best = key;
-                }
-            }
-            if (goal >= 0) {
-                std::vector<std::int32_t> path;
-                for (std::int32_t v = goal; chosen_[at(v)] == 0; v = before[at(v)]) {
-                    path.push_back(v);
-                }
-                for (auto v = path.rbegin(); v != path.rend(); ++v) take(*v);
-                return true;
-            }
-            level = std::move(next);
-        }
-        return false;
-    }
-
-    static constexpr std::int32_t most_hops = 8;  // beyond, take_path() looks everywhere
+    static constexpr std::int32_t most_hops = 8;  // kept up to date; beyond, beyond() looks
     static constexpr std::int32_t nowhere = -1;   // before_: not on a way
     static constexpr std::int32_t reached = -2;   // before_: on a way, nothing before it yet
 
     const PlanInput& in_;
     const std::vector<std::int32_t>& members_;
     std::vector<std::uint8_t>& wanted_;
-    std::vector<std::uint8_t> chosen_;
-    std::vector<double> overlap_;     // highest with the chosen set
-    std::vector<std::int32_t> hops_;  // from the chosen set; most_hops + 1 for farther
-    std::vector<double> step_;        // best overlap with the step before, on the ways at hand
-    std::vector<std::int32_t> before_;
+    std::vector<std::uint8_t>& chosen_;
+    std::vector<double>& overlap_;     // highest with the chosen set
+    std::vector<std::int32_t>& hops_;  // from the chosen set
+    std::vector<double>& step_;        // best overlap with the step before, on the ways at hand
+    std::vector<std::int32_t>& before_;
     std::vector<std::vector<std::int32_t>> at_hops_;  // candidates by hops; some out of date
+    std::vector<std::int32_t> rim_;                   // most_hops away; some out of date
+    std::vector<std::int32_t> beyond_;                // farther than that, found for one way
     std::priority_queue<Entry> frontier_;
     Chosen order_;
 };
@@ -255,9 +255,10 @@ private:
 }  // namespace
 
 Chosen greedy_network(const PlanInput& input, const std::vector<std::int32_t>& members,
-                      const std::vector<std::int32_t>& forced, std::vector<std::uint8_t>& wanted) {
+                      const std::vector<std::int32_t>& forced, std::vector<std::uint8_t>& wanted,
+                      Workspace& work) {
     assert(!members.empty());
-    return Greedy(input, members, wanted).run(forced);
+    return Greedy(input, members, wanted, work).run(forced);
 }
 
 }  // namespace vfplan

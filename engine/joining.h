@@ -16,7 +16,9 @@ struct Joining {
     std::int64_t networks_by_min_len = 0;
 };
 
-// Over all candidates, by the ratio of `options`. Nothing is computed for a single network.
+// Over all candidates, by the ratio of `options`. Nothing is computed for a single network. Looks
+// at pairs of candidates in different components of the graph only, which are few; where the ratio
+// is one by angle, `networks_by_min_len` needs all pairs and an index of all rows.
 Joining find_joining(const Threads& threads, const PlanInput& input, const PlanOptions& options,
                      const Plan& plan);
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/piece_places.h"
 #include "engine/planner.h"
 
 namespace vfplan {
@@ -44,8 +45,8 @@ struct Metrics : PathMeasures {
     double gap = 0;  // (stations - lower_bound) / stations
 };
 
-// Thread count changes nothing. `walls` serve the histograms only.
+// Thread count changes nothing. `places` serve the histograms only.
 Metrics measure(const Threads& threads, const PlanInput& input, const Plan& plan,
-                const std::vector<Wall>& walls, double range_max_m);
+                const PiecePlaces& places, double range_max_m);
 
 }  // namespace vfplan

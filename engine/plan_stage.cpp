@@ -58,19 +58,48 @@ PlanOptions plan_options(const Config& c) {
     return {c.plan.method, c.plan.loops, ratio_of(c.overlap.ratio), c.overlap.threshold};
 }
 
+PlanTables plan_tables_of(const CoverageTables& t, OverlapRatio ratio) {
+    return {t.walls,
+            t.pieces.first_of,
+            t.reach,
+            t.candidates,
+            piece_rows(t.table, by_angle(ratio)),
+            piece_lengths_m(t.pieces),
+            angles_of(t.table)};
+}
+
+Planned plan_rows(const PlanOptions& options, double range_max_m, const PlanTables& t,
+                  const Threads& threads, Progress& progress) {
+    const auto pieces = static_cast<std::int64_t>(t.piece_length_m.size());
+    Planned out;
+    progress.stage("overlap");
+    std::vector<std::int32_t> bound_pieces;
+    std::vector<PairBlock> pairs;
+    {
+        const PieceIndex index = index_of(t.rows, pieces);
+        bound_pieces = independent_pieces(t.rows, index);
+        pairs = overlap_pairs(threads, t.rows, index, t.piece_length_m, options.ratio,
+                              options.threshold);
+    }
+    const Graph graph = make_graph(std::move(pairs));
+    const PlanInput input{t.candidates, t.rows, t.piece_length_m, t.reach, graph};
+    progress.stage("plan");
+    out.plan = make_plan(input, options, out.report);
+    out.plan.bound_pieces = std::move(bound_pieces);
+    add_ratios(input, t.angles, out.plan);
+    progress.stage("metrics");
+    out.metrics =
+        measure(threads, input, out.plan, PiecePlaces(t.walls, t.first_of, pieces), range_max_m);
+    progress.stage("joining");
+    out.joining = find_joining(threads, input, options, out.plan);
+    return out;
+}
+
 Planned plan_tables(const Config& config, const CoverageTables& t, const Threads& threads,
                     Progress& progress) {
     const PlanOptions options = plan_options(config);
-    Planned out;
-    progress.stage("overlap");
-    const Graph graph = overlap_graph(threads, t.pieces, t.table, options.ratio, options.threshold);
-    const PlanInput input{t.candidates, t.pieces, t.reach, t.table, graph};
-    progress.stage("plan");
-    out.plan = make_plan(input, options, out.report);
-    progress.stage("metrics");
-    out.metrics = measure(threads, input, out.plan, t.walls, config.scanner.range_max_m);
-    out.joining = find_joining(threads, input, options, out.plan);
-    return out;
+    return plan_rows(options, config.scanner.range_max_m, plan_tables_of(t, options.ratio), threads,
+                     progress);
 }
 
 std::string result_hash(const FieldTable& field, const CoverageTables& t, const Plan& plan) {
@@ -140,18 +169,17 @@ nlohmann::ordered_json summary_of(const Planned& p, const CoverageTables& t) {
     j["histograms"] = {{"stations_per_piece", m.multiplicity},
                        {"range_by_tenth_of_max", m.range_tenths},
                        {"incidence_by_10_deg", m.incidence_tens}};
+    std::vector<std::int64_t> stations(p.joining.joins_at.size(), 0);
+    std::vector<double> length(stations.size(), 0);
+    for (const Station& s : p.plan.stations) {
+        ++stations[static_cast<std::size_t>(s.network)];
+        length[static_cast<std::size_t>(s.network)] += s.new_length_m;
+    }
     nlohmann::ordered_json networks = nlohmann::ordered_json::array();
-    for (std::int64_t n = 0; n < m.networks; ++n) {
-        std::int64_t stations = 0;
-        double length = 0;
-        for (const Station& s : p.plan.stations) {
-            if (s.network != n) continue;
-            ++stations;
-            length += s.new_length_m;
-        }
-        networks.push_back({{"stations", stations},
-                            {"length_m", length},
-                            {"joins_main_at", p.joining.joins_at[static_cast<std::size_t>(n)]}});
+    for (std::size_t n = 0; n < stations.size(); ++n) {
+        networks.push_back({{"stations", stations[n]},
+                            {"length_m", length[n]},
+                            {"joins_main_at", p.joining.joins_at[n]}});
     }
     j["network_list"] = networks;
     j["networks_by_min_len"] = p.joining.networks_by_min_len;

@@ -22,6 +22,23 @@ struct Planned {
 
 PlanOptions plan_options(const Config& config);
 
+// What a plan is made from: about 4 bytes for each entry of the coverage table and 8 for each
+// piece. References to what outlives it.
+struct PlanTables {
+    const std::vector<Wall>& walls;
+    const std::vector<std::int32_t>& first_of;  // Pieces::first_of
+    const std::vector<PieceStatus>& reach;
+    const std::vector<Candidate>& candidates;
+    PieceRows rows;  // with angles where the job's overlap goes by angle
+    std::vector<double> piece_length_m;
+    AngleSource angles;
+};
+PlanTables plan_tables_of(const CoverageTables& tables, OverlapRatio ratio);
+
+// The same index serves overlap and certificate and is gone when the plan begins.
+Planned plan_rows(const PlanOptions& options, double range_max_m, const PlanTables& tables,
+                  const Threads& threads, Progress& progress);
+
 Planned plan_tables(const Config& config, const CoverageTables& tables, const Threads& threads,
                     Progress& progress);
 

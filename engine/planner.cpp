@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "engine/separation.h"
 #include "kernels/index.h"
 
 namespace vfplan {
@@ -22,13 +21,13 @@ std::vector<std::vector<std::int32_t>> ranked_components(const PlanInput& in) {
         members[at(number[at(c)])].push_back(c);
     }
     std::vector<double> length(members.size(), 0);
-    std::vector<std::int32_t> last(at(in.pieces.size()), -1);
+    std::vector<std::int32_t> last(in.piece_length_m.size(), -1);
     for (std::size_t m = 0; m < members.size(); ++m) {
         for (const std::int32_t c : members[m]) {
-            for (const Seen* s = in.table.row_begin(c); s != in.table.row_end(c); ++s) {
-                if (last[at(s->piece)] == static_cast<std::int32_t>(m)) continue;
-                last[at(s->piece)] = static_cast<std::int32_t>(m);
-                length[m] += in.pieces.length_m(s->piece);
+            for (const std::int32_t p : in.rows.row(c)) {
+                if (last[at(p)] == static_cast<std::int32_t>(m)) continue;
+                last[at(p)] = static_cast<std::int32_t>(m);
+                length[m] += in.piece_length_m[at(p)];
             }
         }
     }
@@ -43,39 +42,35 @@ std::vector<std::vector<std::int32_t>> ranked_components(const PlanInput& in) {
 
 void count_coverage(const PlanInput& in, const Chosen& chosen, std::vector<std::int32_t>& count) {
     for (const std::int32_t c : chosen) {
-        for (const Seen* s = in.table.row_begin(c); s != in.table.row_end(c); ++s) {
-            ++count[at(s->piece)];
-        }
+        for (const std::int32_t p : in.rows.row(c)) ++count[at(p)];
     }
 }
 
-std::vector<std::uint8_t> marked(const PlanInput& in, const Chosen& chosen) {
-    std::vector<std::uint8_t> out(at(in.graph.size()), 0);
-    for (const std::int32_t c : chosen) out[at(c)] = 1;
-    return out;
-}
-
-std::int64_t loose_stations(const PlanInput& in, Chosen chosen) {
-    if (chosen.size() < 2) return 0;
-    std::sort(chosen.begin(), chosen.end());
-    const Cuts cuts = find_cuts(induced(in.graph, chosen));
+// Stations on no cycle, in networks of more than one.
+std::int64_t loose_stations(const PlanInput& in, const std::vector<Chosen>& networks) {
+    std::vector<std::int32_t> all;
+    for (const Chosen& chosen : networks) {
+        if (chosen.size() > 1) all.insert(all.end(), chosen.begin(), chosen.end());
+    }
+    std::sort(all.begin(), all.end());
+    const Cuts cuts = find_cuts(induced(in.graph, all));
     return std::count(cuts.on_cycle.begin(), cuts.on_cycle.end(), 0);
 }
 
 void add_stations(const PlanInput& in, const std::vector<Chosen>& networks, Plan& plan) {
-    std::vector<std::uint8_t> covered(at(in.pieces.size()), 0);
+    std::vector<std::uint8_t> covered(in.piece_length_m.size(), 0);
     for (std::size_t network = 0; network < networks.size(); ++network) {
         for (const std::int32_t c : networks[network]) {
             Station station;
             station.candidate = c;
             station.network = static_cast<std::int32_t>(network);
             station.order = static_cast<std::int32_t>(plan.stations.size());
-            for (const Seen* s = in.table.row_begin(c); s != in.table.row_end(c); ++s) {
-                const double length = in.pieces.length_m(s->piece);
+            for (const std::int32_t p : in.rows.row(c)) {
+                const double length = in.piece_length_m[at(p)];
                 station.seen_length_m += length;
-                if (covered[at(s->piece)] == 0) station.new_length_m += length;
-                covered[at(s->piece)] = 1;
-                if (network == 0) plan.pieces[at(s->piece)] = PieceStatus::covered;
+                if (covered[at(p)] == 0) station.new_length_m += length;
+                covered[at(p)] = 1;
+                if (network == 0) plan.pieces[at(p)] = PieceStatus::covered;
             }
             plan.stations.push_back(station);
         }
@@ -93,18 +88,7 @@ void add_links(const PlanInput& in, Plan& plan) {
         in.graph.each(c, [&](std::int32_t n, double overlap_value) {
             const std::int32_t other = station_of[at(n)];
             if (other <= static_cast<std::int32_t>(i)) return;
-            Link link{static_cast<std::int32_t>(i), other, overlap_value, {}};
-            const Seen* a = in.table.row_begin(c);
-            const Seen* a_end = in.table.row_end(c);
-            const Seen* b = in.table.row_begin(n);
-            const Seen* b_end = in.table.row_end(n);
-            const SeenJointly joint = seen_jointly(in.pieces, a, a_end, b, b_end);
-            for (std::size_t r = 0; r < link.ratios.size(); ++r) {
-                link.ratios[r] =
-                    overlap(static_cast<OverlapRatio>(r), seen_total(in.pieces, a, a_end),
-                            seen_total(in.pieces, b, b_end), joint);
-            }
-            links.push_back(link);
+            links.push_back({static_cast<std::int32_t>(i), other, overlap_value, {}});
         });
         std::sort(links.begin(), links.end(),
                   [](const Link& p, const Link& q) { return p.to < q.to; });
@@ -113,6 +97,14 @@ void add_links(const PlanInput& in, Plan& plan) {
 }
 
 }  // namespace
+
+Workspace::Workspace(const Graph& graph)
+    : mark(at(graph.size()), 0),
+      overlap(mark.size(), 0),
+      step(mark.size(), 0),
+      hops(mark.size(), far_away),
+      before(mark.size(), -1),
+      stations(graph) {}
 
 Plan make_plan(const PlanInput& in, const PlanOptions& options, PlanReport& report) {
     report = {};
@@ -123,6 +115,7 @@ Plan make_plan(const PlanInput& in, const PlanOptions& options, PlanReport& repo
         wanted[p] = in.reach[p] == PieceStatus::covered ? 1 : 0;
         if (wanted[p] != 0) plan.pieces[p] = PieceStatus::unreached;
     }
+    Workspace work(in.graph);
     std::vector<Chosen> networks;
     std::vector<std::uint8_t> kept(at(in.graph.size()), 0);
     for (const std::vector<std::int32_t>& members : ranked_components(in)) {
@@ -133,49 +126,146 @@ Plan make_plan(const PlanInput& in, const PlanOptions& options, PlanReport& repo
                 forced.push_back(c);
                 kept[at(c)] = 1;
             }
-            for (const Seen* s = in.table.row_begin(c); s != in.table.row_end(c); ++s) {
-                adds = adds || wanted[at(s->piece)] != 0;
-            }
+            for (const std::int32_t p : in.rows.row(c)) adds = adds || wanted[at(p)] != 0;
         }
         if (!adds && forced.empty()) continue;
-        networks.push_back(greedy_network(in, members, forced, wanted));
+        networks.push_back(greedy_network(in, members, forced, wanted, work));
         report.greedy_stations += static_cast<std::int64_t>(networks.back().size());
     }
     if (options.method != "greedy") {
-        std::vector<std::int32_t> count(at(in.pieces.size()), 0);
+        std::vector<std::int32_t> count(in.piece_length_m.size(), 0);
         for (Chosen& chosen : networks) {
             // With the networks before it, so that the main one never leans on a lesser one.
             count_coverage(in, chosen, count);
             const std::size_t before = chosen.size();
-            chosen = prune_network(in, chosen, kept, count);
+            chosen = prune_network(in, chosen, kept, count, work);
             report.pruned_stations += static_cast<std::int64_t>(before - chosen.size());
         }
     }
-    for (Chosen& chosen : networks) {
+    report.loose_before = report.loose_after = loose_stations(in, networks);
+    for (const Chosen& chosen : networks) {
         report.before_loops += static_cast<std::int64_t>(chosen.size());
-        report.loose_before += loose_stations(in, chosen);
-        if (options.loops) chosen = close_loops(in, chosen);
-        report.loose_after += loose_stations(in, chosen);
+        for (const std::int32_t c : chosen) work.stations.add(c);
+    }
+    if (options.loops) {
+        for (Chosen& chosen : networks) chosen = close_loops(in, chosen, work);
+        report.loose_after = loose_stations(in, networks);
     }
     add_stations(in, networks, plan);
     add_links(in, plan);
-    plan.bound_pieces = independent_pieces(in);
     return plan;
 }
 
+namespace {
+
+// Angles of rows asked for in ascending order, fetched many rows at a time.
+class AngleWindow {
+public:
+    AngleWindow(const PieceRows& rows, const AngleSource& source) : rows_(rows), source_(source) {}
+
+    std::span<const float> of(std::int32_t c) {
+        const std::int64_t from = rows_.begin[at(c)];
+        const std::int64_t to = rows_.begin[at(c) + 1];
+        if (to > from_ + static_cast<std::int64_t>(angles_.size())) {
+            // Whole rows, so that none is fetched twice; one at least, however long.
+            const auto next = rows_.begin.begin() + c + 1;
+            const auto end = std::upper_bound(next + 1, rows_.begin.end(), from + most) - 1;
+            from_ = from;
+            angles_ = {};
+            angles_ = source_(from, *end - from);
+        }
+        return {angles_.data() + (from - from_), angles_.data() + (to - from_)};
+    }
+
+private:
+    static constexpr std::int64_t most = std::int64_t{1} << 22;  // 16 MB
+    const PieceRows& rows_;
+    const AngleSource& source_;
+    std::int64_t from_ = 0;
+    std::vector<float> angles_;
+};
+
+// Sums over the pieces that two rows share: their length, and their angle from the first.
+void add_shared(std::span<const std::int32_t> a, std::span<const float> angles_a,
+                std::span<const std::int32_t> b, const std::vector<double>& piece_length_m,
+                double& length_m, double& angle_rad) {
+    for (std::size_t i = 0, k = 0; i < a.size() && k < b.size();) {
+        if (a[i] < b[k]) {
+            ++i;
+        } else if (b[k] < a[i]) {
+            ++k;
+        } else {
+            length_m += piece_length_m[at(a[i])];
+            angle_rad += static_cast<double>(angles_a[i]);
+            ++i;
+            ++k;
+        }
+    }
+}
+
+}  // namespace
+
+void add_ratios(const PlanInput& in, const AngleSource& angles, Plan& plan) {
+    // What two rows share, as seen from one end, needs that end's angles and both rows' pieces:
+    // each candidate has its turn by itself.
+    struct End {
+        std::int32_t station;
+        std::int32_t other;
+        std::size_t link;
+    };
+    const auto row_of = [&](std::int32_t station) { return plan.stations[at(station)].candidate; };
+    std::vector<End> ends;
+    ends.reserve(2 * plan.links.size());
+    for (std::size_t i = 0; i < plan.links.size(); ++i) {
+        ends.push_back({plan.links[i].from, plan.links[i].to, i});
+        ends.push_back({plan.links[i].to, plan.links[i].from, i});
+    }
+    std::sort(ends.begin(), ends.end(), [&](const End& a, const End& b) {
+        return std::pair(row_of(a.station), a.link) < std::pair(row_of(b.station), b.link);
+    });
+    std::vector<SeenTotal> totals(plan.stations.size());
+    std::vector<SeenJointly> joint(plan.links.size());
+    AngleWindow window(in.rows, angles);
+    std::int32_t last = -1;
+    for (const End& e : ends) {
+        const std::int32_t c = row_of(e.station);
+        const std::span<const std::int32_t> row = in.rows.row(c);
+        const std::span<const float> angle = window.of(c);
+        if (e.station != last) {
+            SeenTotal& total = totals[at(e.station)];
+            for (const std::int32_t p : row) total.length_m += in.piece_length_m[at(p)];
+            for (const float a : angle) total.angle_rad += static_cast<double>(a);
+            last = e.station;
+        }
+        SeenJointly& sum = joint[e.link];
+        const bool first = e.station == plan.links[e.link].from;
+        double same = 0;  // the other end has the same length
+        add_shared(row, angle, in.rows.row(row_of(e.other)), in.piece_length_m,
+                   first ? sum.length_m : same, first ? sum.angle_a_rad : sum.angle_b_rad);
+    }
+    for (std::size_t i = 0; i < plan.links.size(); ++i) {
+        Link& link = plan.links[i];
+        for (std::size_t r = 0; r < link.ratios.size(); ++r) {
+            link.ratios[r] = overlap(static_cast<OverlapRatio>(r), totals[at(link.from)],
+                                     totals[at(link.to)], joint[i]);
+        }
+    }
+}
+
 Chosen prune_network(const PlanInput& in, const Chosen& chosen,
-                     const std::vector<std::uint8_t>& kept, std::vector<std::int32_t>& count) {
-    Separation network(in.graph, marked(in, chosen));
+                     const std::vector<std::uint8_t>& kept, std::vector<std::int32_t>& count,
+                     Workspace& work) {
+    Separation& network = work.stations;
+    for (const std::int32_t v : chosen) network.add(v);
     std::size_t left = chosen.size();
     for (auto v = chosen.rbegin(); v != chosen.rend() && left > 1; ++v) {
-        const Seen* begin = in.table.row_begin(*v);
-        const Seen* end = in.table.row_end(*v);
+        const std::span<const std::int32_t> row = in.rows.row(*v);
         if (kept[at(*v)] != 0 ||
-            std::any_of(begin, end, [&](const Seen& s) { return count[at(s.piece)] < 2; }) ||
+            std::any_of(row.begin(), row.end(), [&](std::int32_t p) { return count[at(p)] < 2; }) ||
             !network.can_go(*v)) {
             continue;
         }
-        for (const Seen* s = begin; s != end; ++s) --count[at(s->piece)];
+        for (const std::int32_t p : row) --count[at(p)];
         network.remove(*v);
         --left;
     }
@@ -191,11 +281,8 @@ namespace {
 // Looks for the fewest candidates that put a station on a cycle through another one.
 class LoopSearch {
 public:
-    explicit LoopSearch(const PlanInput& in)
-        : in_(in),
-          before_(at(in.graph.size()), -1),
-          width_(before_.size(), 0),
-          seen_(before_.size(), 0) {}
+    LoopSearch(const PlanInput& in, Workspace& work)
+        : in_(in), before_(work.before), width_(work.step), seen_(work.mark) {}
 
     // Breadth first from v through candidates that are not stations, to the first one that touches
     // another station; among those of one level the widest path (its smallest overlap), then the
@@ -256,49 +343,45 @@ private:
     }
 
     const PlanInput& in_;
-    std::vector<std::int32_t> before_;
-    std::vector<double> width_;
-    std::vector<std::uint8_t> seen_;
+    std::vector<std::int32_t>& before_;
+    std::vector<double>& width_;
+    std::vector<std::uint8_t>& seen_;
     std::vector<std::int32_t> touched_;
 };
 
 }  // namespace
 
-Chosen close_loops(const PlanInput& in, const Chosen& chosen) {
+Chosen close_loops(const PlanInput& in, const Chosen& chosen, Workspace& work) {
     Chosen out = chosen;
     if (out.size() < 2) return out;
-    Separation network(in.graph, marked(in, chosen));
-    LoopSearch search(in);
+    LoopSearch search(in, work);
     for (const std::int32_t v : chosen) {
-        if (network.on_cycle(v)) continue;
-        for (const std::int32_t c : search.from(v, network)) {
-            network.add(c);
+        if (work.stations.on_cycle(v)) continue;
+        for (const std::int32_t c : search.from(v, work.stations)) {
+            work.stations.add(c);
             out.push_back(c);
         }
     }
     return out;
 }
 
-std::vector<std::int32_t> independent_pieces(const PlanInput& in) {
-    const InvertedIndex index = invert(in.table, in.pieces.size());
-    std::vector<std::int32_t> order;
-    for (std::int64_t p = 0; p < in.pieces.size(); ++p) {
-        if (index.begin[at(p) + 1] > index.begin[at(p)]) {
-            order.push_back(static_cast<std::int32_t>(p));
-        }
-    }
-    const auto viewers = [&](std::int32_t p) {
-        return index.begin[at(p) + 1] - index.begin[at(p)];
-    };
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::int32_t a, std::int32_t b) { return viewers(a) < viewers(b); });
-    std::vector<std::uint8_t> used(at(in.table.rows()), 0);
+std::vector<std::int32_t> independent_pieces(const PieceRows& rows, const PieceIndex& index) {
+    const auto viewers = [&](std::int32_t p) { return index.rows_of(p).size(); };
+    // Fewest viewers first, then by number: counted, not sorted.
+    std::vector<std::int64_t> begin(at(rows.size()) + 2, 0);
+    for (std::int32_t p = 0; p < index.pieces(); ++p) ++begin[viewers(p) + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<std::int32_t> order(at(index.pieces()));
+    for (std::int32_t p = 0; p < index.pieces(); ++p) order[at(begin[viewers(p)]++)] = p;
+    std::vector<std::uint8_t> used(at(rows.size()), 0);
     std::vector<std::int32_t> out;
     for (const std::int32_t p : order) {
-        const auto first = index.row.begin() + index.begin[at(p)];
-        const auto last = index.row.begin() + index.begin[at(p) + 1];
-        if (std::any_of(first, last, [&](std::int32_t c) { return used[at(c)] != 0; })) continue;
-        std::for_each(first, last, [&](std::int32_t c) { used[at(c)] = 1; });
+        const std::span<const std::int32_t> by = index.rows_of(p);
+        if (by.empty() ||
+            std::any_of(by.begin(), by.end(), [&](std::int32_t c) { return used[at(c)] != 0; })) {
+            continue;
+        }
+        for (const std::int32_t c : by) used[at(c)] = 1;
         out.push_back(p);
     }
     std::sort(out.begin(), out.end());

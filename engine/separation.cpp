@@ -9,6 +9,9 @@ namespace vfplan {
 Separation::Separation(const Graph& graph, std::vector<std::uint8_t> inside)
     : graph_(graph), inside_(std::move(inside)), side_of_(at(graph.size()), -1) {}
 
+Separation::Separation(const Graph& graph)
+    : Separation(graph, std::vector<std::uint8_t>(at(graph.size()), 0)) {}
+
 bool Separation::can_go(std::int32_t node) { return search(node, Until::all_met); }
 bool Separation::on_cycle(std::int32_t node) { return search(node, Until::two_met); }
 

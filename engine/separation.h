@@ -15,6 +15,8 @@ class Separation {
 public:
     // `inside`: by node, 1 for the chosen ones. Refers to the graph, which has no parallel edges.
     Separation(const Graph& graph, std::vector<std::uint8_t> inside);
+    // With no node chosen yet.
+    explicit Separation(const Graph& graph);
 
     bool inside(std::int32_t node) const { return inside_[static_cast<std::size_t>(node)] != 0; }
     void add(std::int32_t node) { inside_[static_cast<std::size_t>(node)] = 1; }

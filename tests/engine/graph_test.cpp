@@ -152,9 +152,9 @@ TEST(Graph, OverlapGraphIsTheSameForAnyNumberOfThreads) {
     }
     CoverageTable table;
     std::vector<CoverageRow> rows;
-    for (int r = 0; r < 170; ++r) {  // more than one block
+    for (int r = 0; r < 700; ++r) {  // more than one block
         CoverageRow row;
-        for (std::int32_t p = r; p < std::min(200, r + 20); ++p) {
+        for (std::int32_t p = r / 4; p < std::min(200, r / 4 + 20); ++p) {
             if (random() % 2 != 0) row.push_back({p, 1, 0.01F});
         }
         table.add(row);

@@ -5,18 +5,29 @@
 #include <random>
 #include <vector>
 
+#include "engine/piece_places.h"
 #include "engine/planner.h"
 
 namespace vfplan::test {
 
 struct HandMade {
     std::vector<Candidate> candidates;
-    Pieces pieces;
+    std::vector<double> length_m;  // of each piece
     std::vector<PieceStatus> reach;
-    CoverageTable table;
+    PieceRows rows;
     Graph graph;
 
-    PlanInput input() const { return {candidates, pieces, reach, table, graph}; }
+    std::int32_t pieces() const { return static_cast<std::int32_t>(length_m.size()); }
+    PlanInput input() const { return {candidates, rows, length_m, reach, graph}; }
+    // One wall of each piece's own, without a second side.
+    std::vector<std::int32_t> first_of() const {
+        std::vector<std::int32_t> out;
+        for (std::int32_t p = 0; p < pieces(); ++p) out.insert(out.end(), {p, -1});
+        return out;
+    }
+    PiecePlaces places(const std::vector<Wall>& walls) const {
+        return {walls, first_of(), pieces()};
+    }
     std::vector<std::int32_t> everyone() const {
         std::vector<std::int32_t> all(candidates.size());
         for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::int32_t>(i);
@@ -28,8 +39,8 @@ struct HandMade {
         return out;
     }
     bool covers(std::int32_t candidate, std::int32_t piece) const {
-        return std::any_of(table.row_begin(candidate), table.row_end(candidate),
-                           [&](const Seen& s) { return s.piece == piece; });
+        const auto row = rows.row(candidate);
+        return std::find(row.begin(), row.end(), piece) != row.end();
     }
     bool covered_by(const Chosen& chosen, std::int32_t piece) const {
         return std::any_of(chosen.begin(), chosen.end(),
@@ -42,25 +53,38 @@ struct HandMade {
     }
 };
 
+// The steps on one network, each in a work space of its own.
+inline Chosen greedy_alone(const HandMade& h, const std::vector<std::int32_t>& members,
+                           const std::vector<std::int32_t>& forced,
+                           std::vector<std::uint8_t>& wanted) {
+    Workspace work(h.graph);
+    return greedy_network(h.input(), members, forced, wanted, work);
+}
+inline Chosen prune_alone(const HandMade& h, const Chosen& chosen,
+                          const std::vector<std::uint8_t>& kept, std::vector<std::int32_t>& count) {
+    Workspace work(h.graph);
+    return prune_network(h.input(), chosen, kept, count, work);
+}
+inline Chosen loops_alone(const HandMade& h, const Chosen& chosen) {
+    Workspace work(h.graph);
+    for (const std::int32_t c : chosen) work.stations.add(c);
+    return close_loops(h.input(), chosen, work);
+}
+
 // rows[i]: pieces that candidate i covers. Pieces that nobody covers have no viewpoint.
 inline HandMade hand_made(const std::vector<double>& lengths,
                           const std::vector<std::vector<std::int32_t>>& rows,
                           std::vector<OverlapPair> edges) {
     HandMade h;
-    for (std::size_t p = 0; p < lengths.size(); ++p) {
-        h.pieces.wall.push_back(static_cast<std::int32_t>(p));
-        h.pieces.side.push_back(0);
-        h.pieces.s0_m.push_back(0);
-        h.pieces.s1_m.push_back(lengths[p]);
-    }
+    h.length_m = lengths;
     h.reach.assign(lengths.size(), PieceStatus::no_viewpoint);
     for (const auto& row : rows) {
-        CoverageRow seen;
         for (const std::int32_t p : row) {
-            seen.push_back({p, 1, 0.1F});
+            h.rows.piece.push_back(p);
+            h.rows.angle_rad.push_back(0.1F);
             h.reach[static_cast<std::size_t>(p)] = PieceStatus::covered;
         }
-        h.table.add(seen);
+        h.rows.begin.push_back(static_cast<std::int64_t>(h.rows.piece.size()));
     }
     h.candidates.resize(rows.size());
     std::sort(edges.begin(), edges.end(), [](const OverlapPair& p, const OverlapPair& q) {

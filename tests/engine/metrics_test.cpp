@@ -30,7 +30,7 @@ Plan plan_with(const std::vector<std::int32_t>& networks, const std::vector<Over
 Metrics of_graph(const std::vector<std::int32_t>& networks, const std::vector<OverlapPair>& links,
                  int threads = 1) {
     const HandMade h = hand_made({}, std::vector<std::vector<std::int32_t>>(networks.size()), {});
-    return measure(Threads(threads), h.input(), plan_with(networks, links), {}, 10);
+    return measure(Threads(threads), h.input(), plan_with(networks, links), h.places({}), 10);
 }
 
 TEST(Wapl, OneStationAndNone) {
@@ -145,7 +145,7 @@ TEST(Pieces, CoverageByCountAndByLength) {
     const Metrics m =
         measure(Threads(1), h.input(),
                 plan_with({0, 1}, {}, {covered, covered, unreached, no_viewpoint, off_candidates}),
-                walls, 10);
+                h.places(walls), 10);
     EXPECT_EQ(m.pieces_coverable, 4);
     EXPECT_EQ(m.pieces_covered, 2);
     EXPECT_EQ(m.pieces_unreached, 1);
@@ -163,10 +163,10 @@ TEST(Pieces, HowManyStationsSeeEach) {
     const std::vector<Wall> walls(4, {Vec2d(1, 1), Vec2d(2, 1)});
     Plan plan = plan_with(std::vector<std::int32_t>(12, 0), {}, h.reach);
     std::vector<std::int64_t> want = {1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1};
-    EXPECT_EQ(measure(Threads(1), h.input(), plan, walls, 10).multiplicity, want);
+    EXPECT_EQ(measure(Threads(1), h.input(), plan, h.places(walls), 10).multiplicity, want);
     plan.stations.resize(9);  // candidates 0 to 8
     want = {1, 1, 1, 0, 0, 0, 0, 0, 0, 1, 0};
-    EXPECT_EQ(measure(Threads(1), h.input(), plan, walls, 10).multiplicity, want);
+    EXPECT_EQ(measure(Threads(1), h.input(), plan, h.places(walls), 10).multiplicity, want);
 }
 
 // Histograms of one station at the origin that sees walls of 2 m; `mid`: their middles.
@@ -178,7 +178,7 @@ Metrics from_origin(const std::vector<Vec2d>& middles, const std::vector<Vec2d>&
         walls.push_back({middles[i] - along[i], middles[i] + along[i]});
     }
     const HandMade h = hand_made(std::vector<double>(middles.size(), 2), {row}, {});
-    return measure(Threads(1), h.input(), plan_with({0}, {}, h.reach), walls, 50);
+    return measure(Threads(1), h.input(), plan_with({0}, {}, h.reach), h.places(walls), 50);
 }
 
 TEST(Pieces, RangesByTenthsOfTheLargest) {
@@ -198,12 +198,10 @@ TEST(Pieces, IncidenceByTensOfDegrees) {
         std::vector<Vec2d>(7, Vec2d(-1, 0)));
     EXPECT_EQ(m.incidence_tens, (std::vector<std::int64_t>{2, 1, 0, 0, 2, 0, 0, 0, 2}));
     // Pieces, not walls, are measured: the far end of a wall is seen at a grazing angle.
-    HandMade h = hand_made({10, 10}, {{0, 1}}, {});
-    h.pieces.wall = {0, 0};
-    h.pieces.s0_m = {0, 90};
-    h.pieces.s1_m = {10, 100};
+    const HandMade h = hand_made(std::vector<double>(10, 10.0), {{0, 9}}, {});
+    const std::vector<Wall> walls = {{Vec2d(-5, 10), Vec2d(95, 10)}};
     const Metrics long_wall = measure(Threads(1), h.input(), plan_with({0}, {}, h.reach),
-                                      {{Vec2d(-5, 10), Vec2d(95, 10)}}, 100);
+                                      PiecePlaces(walls, {0, -1}, 10), 100);
     EXPECT_EQ(long_wall.incidence_tens, (std::vector<std::int64_t>{1, 0, 0, 0, 0, 0, 0, 0, 1}));
     EXPECT_EQ(long_wall.range_tenths, (std::vector<std::int64_t>{0, 1, 0, 0, 0, 0, 0, 0, 0, 1}));
 }
@@ -213,7 +211,7 @@ TEST(Bound, GapIsTheShareThatMightBeSpared) {
     Plan plan = plan_with({0, 0, 0, 0}, {}, h.reach);
     plan.bound_pieces = {0, 1, 1};
     const std::vector<Wall> walls(2, {Vec2d(1, 1), Vec2d(2, 1)});
-    const Metrics m = measure(Threads(1), h.input(), plan, walls, 10);
+    const Metrics m = measure(Threads(1), h.input(), plan, h.places(walls), 10);
     EXPECT_EQ(m.lower_bound, 3);
     EXPECT_DOUBLE_EQ(m.gap, 0.25);
     EXPECT_EQ(of_graph({}, {}).gap, 0);

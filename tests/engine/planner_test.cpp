@@ -79,17 +79,79 @@ TEST(Planner, ComponentThatAddsNothingGetsNoNetwork) {
 }
 
 TEST(Planner, LinksJoinStationsInOrderWithAllRatios) {
-    const Plan plan = plan_of(two_parts(), greedy_alone);
+    const HandMade h = two_parts();
+    Plan plan = plan_of(h, greedy_alone);
     ASSERT_EQ(plan.links.size(), 2U);
     EXPECT_EQ(plan.links[0].from, 0);
     EXPECT_EQ(plan.links[0].to, 1);
     EXPECT_EQ(plan.links[0].overlap, 0.6);
     EXPECT_EQ(plan.links[1].from, 2);
     EXPECT_EQ(plan.links[1].to, 3);
+    add_ratios(
+        h.input(),
+        [&](std::int64_t from, std::int64_t count) {
+            const auto begin = h.rows.angle_rad.begin() + from;
+            return std::vector<float>(begin, begin + count);
+        },
+        plan);
     // Stations 2 and 3 are candidates 1 and 0: 5 m in common of 7 and 6.
     EXPECT_DOUBLE_EQ(plan.links[1].ratios[0], 5 / 6.0);
     EXPECT_DOUBLE_EQ(plan.links[1].ratios[1], 10 / 13.0);
     EXPECT_DOUBLE_EQ(plan.links[1].ratios[2], 5 / 8.0);
+    // 0.1 from every piece: one piece in common of two and two.
+    EXPECT_DOUBLE_EQ(plan.links[1].ratios[3], 0.5);
+    EXPECT_DOUBLE_EQ(plan.links[1].ratios[4], 0.5);
+}
+
+// Row by row as from pairs of rows, the angles fetched in order and none twice.
+TEST(Planner, RatiosOfLinksAreThoseOfTheirRows) {
+    HandMade h = random_hand_made(7, 40, 50);
+    for (std::size_t i = 0; i < h.rows.angle_rad.size(); ++i) {
+        h.rows.angle_rad[i] = 0.01F * static_cast<float>(1 + i * 7919 % 97);
+    }
+    Plan plan = plan_of(h, with_loops);
+    ASSERT_GT(plan.links.size(), 5U);
+    std::int64_t last = 0;
+    add_ratios(
+        h.input(),
+        [&](std::int64_t from, std::int64_t count) {
+            EXPECT_GE(from, last);
+            last = from + count;
+            const auto begin = h.rows.angle_rad.begin() + from;
+            return std::vector<float>(begin, begin + count);
+        },
+        plan);
+    for (const Link& l : plan.links) {
+        const std::int32_t a = plan.stations[static_cast<std::size_t>(l.from)].candidate;
+        const std::int32_t b = plan.stations[static_cast<std::size_t>(l.to)].candidate;
+        for (std::size_t r = 0; r < l.ratios.size(); ++r) {
+            EXPECT_EQ(
+                l.ratios[r],
+                overlap(static_cast<OverlapRatio>(r), seen_total(h.rows, h.length_m, a),
+                        seen_total(h.rows, h.length_m, b), seen_jointly(h.rows, h.length_m, a, b)));
+        }
+    }
+}
+
+// A second network must find the work space as the first one did.
+TEST(Planner, NetworksShareAWorkspaceWithoutSeeingEachOther) {
+    const HandMade h = random_hand_made(3, 30, 40);
+    Workspace work(h.graph);
+    for (int round = 0; round < 2; ++round) {
+        auto wanted = h.wanted();
+        const Chosen chosen = greedy_network(h.input(), h.everyone(), {}, wanted, work);
+        const Workspace fresh(h.graph);
+        EXPECT_EQ(work.mark, fresh.mark);
+        EXPECT_EQ(work.overlap, fresh.overlap);
+        EXPECT_EQ(work.step, fresh.step);
+        EXPECT_EQ(work.hops, fresh.hops);
+        EXPECT_EQ(work.before, fresh.before);
+        for (const std::int32_t c : chosen) work.stations.add(c);
+        for (const std::int32_t c : close_loops(h.input(), chosen, work)) work.stations.remove(c);
+        EXPECT_EQ(work.mark, fresh.mark);
+        EXPECT_EQ(work.step, fresh.step);
+        EXPECT_EQ(work.before, fresh.before);
+    }
 }
 
 TEST(Planner, RequiredAndExistingStay) {
@@ -111,18 +173,18 @@ TEST(Prune, LastChosenGoesFirst) {
     const HandMade h =
         hand_made({1, 1}, {{0, 1}, {0}, {1}}, {{0, 1, 0.5}, {0, 2, 0.5}, {1, 2, 0.5}});
     std::vector<std::int32_t> count = {2, 2};
-    EXPECT_EQ(prune_network(h.input(), {1, 2, 0}, {0, 0, 0}, count), (Chosen{1, 2}));
+    EXPECT_EQ(test::prune_alone(h, {1, 2, 0}, {0, 0, 0}, count), (Chosen{1, 2}));
     EXPECT_EQ(count, (std::vector<std::int32_t>{1, 1}));
     count = {2, 2};
-    EXPECT_EQ(prune_network(h.input(), {0, 1, 2}, {0, 0, 0}, count), (Chosen{0}));
+    EXPECT_EQ(test::prune_alone(h, {0, 1, 2}, {0, 0, 0}, count), (Chosen{0}));
     count = {2, 2};
-    EXPECT_EQ(prune_network(h.input(), {0, 1, 2}, {0, 1, 0}, count), (Chosen{0, 1}));
+    EXPECT_EQ(test::prune_alone(h, {0, 1, 2}, {0, 1, 0}, count), (Chosen{0, 1}));
 }
 
 TEST(Prune, WhatConnectsStays) {
     const HandMade h = hand_made({1, 1}, {{0}, {}, {1}}, {{0, 1, 0.5}, {1, 2, 0.5}});
     std::vector<std::int32_t> count = {1, 1};
-    EXPECT_EQ(prune_network(h.input(), {0, 1, 2}, {0, 0, 0}, count), (Chosen{0, 1, 2}));
+    EXPECT_EQ(test::prune_alone(h, {0, 1, 2}, {0, 0, 0}, count), (Chosen{0, 1, 2}));
 }
 
 TEST(Prune, KeepsCoverageAndConnectionAndLeavesNothingToTake) {
@@ -133,8 +195,8 @@ TEST(Prune, KeepsCoverageAndConnectionAndLeavesNothingToTake) {
         std::vector<std::uint8_t> kept(30, 0);
         kept[seed % 30] = 1;
         std::vector<std::int32_t> count(40, 0);
-        for (const Seen& s : h.table.seen) ++count[static_cast<std::size_t>(s.piece)];
-        const Chosen after = prune_network(h.input(), before, kept, count);
+        for (const std::int32_t p : h.rows.piece) ++count[static_cast<std::size_t>(p)];
+        const Chosen after = test::prune_alone(h, before, kept, count);
         pruned += before.size() - after.size();
         EXPECT_TRUE(h.connected(after));
         EXPECT_NE(std::find(after.begin(), after.end(), static_cast<std::int32_t>(seed % 30)),
@@ -171,20 +233,20 @@ TEST(Loops, FewestCandidatesThenTheHighestOverlap) {
     const std::vector<OverlapPair> edges = {{0, 1, 0.5},  {0, 2, 0.4}, {1, 2, 0.4}, {0, 3, 0.9},
                                             {1, 3, 0.35}, {0, 4, 1},   {4, 5, 1},   {1, 5, 1}};
     const HandMade h = hand_made({1}, {{0}, {}, {}, {}, {}, {}}, edges);
-    EXPECT_EQ(close_loops(h.input(), {0, 1}), (Chosen{0, 1, 2}));  // its weakest link is stronger
+    EXPECT_EQ(test::loops_alone(h, {0, 1}), (Chosen{0, 1, 2}));  // its weakest link is stronger
     const HandMade longer =
         hand_made({1}, {{0}, {}, {}, {}, {}, {}}, {{0, 1, 0.5}, {0, 4, 1}, {4, 5, 1}, {1, 5, 1}});
-    const Chosen closed = close_loops(longer.input(), {0, 1});
+    const Chosen closed = test::loops_alone(longer, {0, 1});
     EXPECT_EQ(std::set(closed.begin(), closed.end()), (std::set<std::int32_t>{0, 1, 4, 5}));
 }
 
 TEST(Loops, NothingIsAddedWhereAllIsWellOrNothingHelps) {
     const HandMade triangle = hand_made(
         {1}, {{0}, {}, {}, {}}, {{0, 1, 0.5}, {0, 2, 0.5}, {1, 2, 0.5}, {0, 3, 0.5}, {1, 3, 0.5}});
-    EXPECT_EQ(close_loops(triangle.input(), {0, 1, 2}), (Chosen{0, 1, 2}));
+    EXPECT_EQ(test::loops_alone(triangle, {0, 1, 2}), (Chosen{0, 1, 2}));
     const HandMade path = hand_made({1}, {{0}, {}, {}}, {{0, 1, 0.5}, {1, 2, 0.5}});
-    EXPECT_EQ(close_loops(path.input(), {0, 1}), (Chosen{0, 1}));
-    EXPECT_EQ(close_loops(path.input(), {1}), (Chosen{1}));
+    EXPECT_EQ(test::loops_alone(path, {0, 1}), (Chosen{0, 1}));
+    EXPECT_EQ(test::loops_alone(path, {1}), (Chosen{1}));
 }
 
 TEST(Loops, StationsStayLooseOnlyWhereNoOtherWayLeadsToTheNetwork) {
@@ -192,8 +254,8 @@ TEST(Loops, StationsStayLooseOnlyWhereNoOtherWayLeadsToTheNetwork) {
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         const HandMade h = random_hand_made(seed, 40, 30);
         auto wanted = h.wanted();
-        const Chosen before = greedy_network(h.input(), h.everyone(), {}, wanted);
-        const Chosen after = close_loops(h.input(), before);
+        const Chosen before = test::greedy_alone(h, h.everyone(), {}, wanted);
+        const Chosen after = test::loops_alone(h, before);
         ASSERT_TRUE(std::equal(before.begin(), before.end(), after.begin()));
         added += after.size() - before.size();
         EXPECT_TRUE(h.connected(after));
@@ -242,7 +304,7 @@ int fewest(const HandMade& h) {
         }
         if (static_cast<int>(chosen.size()) >= best) continue;
         bool all = true;
-        for (std::int32_t p = 0; p < h.pieces.size() && all; ++p) {
+        for (std::int32_t p = 0; p < h.pieces() && all; ++p) {
             all = h.reach[static_cast<std::size_t>(p)] != PieceStatus::covered ||
                   h.covered_by(chosen, p);
         }
@@ -255,11 +317,11 @@ TEST(Bound, NeverAboveTheFewestStations) {
     std::size_t sum = 0;
     for (std::uint64_t seed = 0; seed < 25; ++seed) {
         const HandMade h = random_hand_made(seed, 11, 12);
-        const std::vector<std::int32_t> pieces = independent_pieces(h.input());
+        const std::vector<std::int32_t> pieces =
+            independent_pieces(h.rows, index_of(h.rows, h.pieces()));
         sum += pieces.size();
         EXPECT_LE(pieces.size(), static_cast<std::size_t>(fewest(h)));
         EXPECT_LE(pieces.size(), plan_of(h, with_loops).stations.size());
-        EXPECT_EQ(plan_of(h, refined).bound_pieces, pieces);
         EXPECT_TRUE(std::is_sorted(pieces.begin(), pieces.end()));
         for (std::int32_t c = 0; c < 11; ++c) {  // no candidate covers two of them
             EXPECT_LE(std::count_if(pieces.begin(), pieces.end(),
@@ -275,7 +337,7 @@ TEST(Bound, NeverAboveTheFewestStations) {
 
 TEST(Bound, IsTightForCandidatesWithNothingInCommon) {
     const HandMade h = hand_made({1, 1, 1, 1}, {{0, 1}, {2}, {3}}, {{0, 1, 0.5}, {1, 2, 0.5}});
-    EXPECT_EQ(independent_pieces(h.input()).size(), 3U);
+    EXPECT_EQ(independent_pieces(h.rows, index_of(h.rows, h.pieces())).size(), 3U);
 }
 
 }  // namespace
