@@ -88,8 +88,7 @@ int run_or_precompute(const Shared& s, bool plan, const Ranks& ranks) {
     if (const std::string warning = ranks.binding_warning(); !warning.empty()) {
         progress.note("warning: " + warning);
     }
-    std::string text;
-    ranks.lead([&] { text = run_job(config, options, progress); });
+    const std::string text = run_job(config, options, ranks, progress);
     if (!s.quiet && ranks.leader()) fmt::print("{}", text);
     return 0;
 }

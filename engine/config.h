@@ -40,6 +40,7 @@ struct Config {
     struct {
         double cell_m = 0.25;
         double threshold_rad = 1;
+        std::int64_t tile_cells = 1024;
     } field;
     struct {
         double partition_m = 1;

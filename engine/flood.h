@@ -1,10 +1,8 @@
 // Shortest ways over cells.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <queue>
 #include <vector>
 
 #include "kernels/free_cells.h"
@@ -12,70 +10,42 @@
 
 namespace vfplan {
 
-// A flood from many sources over free cells that no wall parts, nearest first: distance in steps of
-// 10 and 14, so that it is a whole number, and the neighbour that it came from. Ties fall the same
-// way on every machine.
+// A flood from many sources over free cells that no wall parts, as far as `most`: distance in steps
+// of 10 and 14, so that it is a whole number. Each cell belongs to the nearest source, of equally
+// near ones to that with the least name, and was reached over the neighbour with the least number
+// that has this source: whatever the order of work. A window of a larger grid gives the same inside
+// it, as far from its edge as the flood goes.
 class Flood {
 public:
-    // `closed`: see closed_links().
-    Flood(const Grid& grid, const Raster<std::uint8_t>& free, const Raster<std::uint8_t>& closed)
-        : grid_(grid),
-          free_(free),
-          closed_(closed),
-          distance_(free.size(), unreached),
-          from_(free.size(), -1),
-          source_(free.size(), -1) {}
-
     static constexpr std::int32_t unreached = std::numeric_limits<std::int32_t>::max();
 
-    void add_source(std::int64_t cell, std::int32_t name) {
-        if (distance_[index(cell)] == 0) return;
-        distance_[index(cell)] = 0;
-        source_[index(cell)] = name;
-        queue_.emplace(0, cell);
-    }
+    // `closed`: see closed_links(). Refers to the rasters.
+    Flood(const Grid& grid, const Raster<std::uint8_t>& free, const Raster<std::uint8_t>& closed,
+          std::int32_t most);
 
-    void run() {
-        while (!queue_.empty()) {
-            const auto [d, cell] = queue_.top();
-            queue_.pop();
-            if (d != distance_[index(cell)]) continue;
-            for (std::size_t k = 0; k < 8; ++k) {
-                const std::int32_t x = grid_.ix(cell) + around_dx[k];
-                const std::int32_t y = grid_.iy(cell) + around_dy[k];
-                if ((closed_[index(cell)] >> k & 1U) != 0 || !grid_.inside(x, y)) continue;
-                const std::int64_t n = grid_.id(x, y);
-                if (free_[index(n)] == 0) continue;
-                const std::int32_t far = d + (k % 2 == 0 ? 10 : 14);
-                if (far >= distance_[index(n)]) continue;
-                distance_[index(n)] = far;
-                from_[index(n)] = cell;
-                source_[index(n)] = source_[index(cell)];
-                queue_.emplace(far, n);
-            }
-        }
-    }
+    void add_source(std::int64_t cell, std::int32_t name);
+    void run();
 
     std::int32_t distance(std::int64_t cell) const { return distance_[index(cell)]; }
     std::int32_t source(std::int64_t cell) const { return source_[index(cell)]; }
     // From the source to the cell.
-    std::vector<std::int64_t> path_to(std::int64_t cell) const {
-        std::vector<std::int64_t> path;
-        for (std::int64_t c = cell; c >= 0; c = from_[index(c)]) path.push_back(c);
-        std::reverse(path.begin(), path.end());
-        return path;
-    }
+    std::vector<std::int64_t> path_to(std::int64_t cell) const;
 
 private:
     static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
-    using Entry = std::pair<std::int32_t, std::int64_t>;
+    static constexpr std::size_t buckets = 15;  // one more than the longest step
+
+    void reach(std::int64_t cell, std::int32_t far, std::int32_t source, std::int8_t over);
+
     const Grid& grid_;
     const Raster<std::uint8_t>& free_;
     const Raster<std::uint8_t>& closed_;
+    std::int32_t most_;
     std::vector<std::int32_t> distance_;
-    std::vector<std::int64_t> from_;
     std::vector<std::int32_t> source_;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+    std::vector<std::int8_t> over_;  // the direction that leads back to the source; -1 for sources
+    std::vector<std::vector<std::int64_t>> waiting_;  // by distance, modulo their number
+    std::size_t left_ = 0;
 };
 
 }  // namespace vfplan

@@ -110,10 +110,14 @@ void Threads::for_each(std::int64_t n, std::int64_t grain,
     release(loop_begun);
     const LoopEnds when_left;
     impl_->arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, n, static_cast<std::size_t>(grain)),
-                          part);
+        tbb::this_task_arena::isolate([&] {
+            tbb::parallel_for(
+                tbb::blocked_range<std::int64_t>(0, n, static_cast<std::size_t>(grain)), part);
+        });
     });
 }
+
+void Threads::isolated(const std::function<void()>& body) { tbb::this_task_arena::isolate(body); }
 
 void Threads::run(const std::function<void()>& body) const { impl_->arena.execute(body); }
 

@@ -152,6 +152,15 @@ std::vector<std::pair<Parameter, ParameterValue>> parameters(Config& c) {
           0,
           6.283185307179587},
          &c.field.threshold_rad},
+        {{"field",
+          "tile_cells",
+          "side of the tiles in which the field is made and stored, in cells, a multiple of 4; "
+          "larger ones need more memory, and change no result",
+          output,
+          {},
+          64,
+          16384},
+         &c.field.tile_cells},
 
         {{"coverage",
           "partition_m",

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernels/coverage.h"
 #include "kernels/index.h"
 #include "kernels/wall.h"
 
@@ -19,21 +20,20 @@ public:
         Vec2d along{0, 0};  // unit vector of the wall
     };
 
-    // `first_of`: first piece of wall * 2 + side, -1 where none; `pieces`: how many there are.
-    PiecePlaces(const std::vector<Wall>& walls, const std::vector<std::int32_t>& first_of,
-                std::int64_t pieces)
-        : walls_(walls) {
-        for (std::size_t face = 0; face < first_of.size(); ++face) {
-            if (first_of[face] < 0) continue;
-            first_.push_back(first_of[face]);
-            wall_.push_back(static_cast<std::int32_t>(face / 2));
+    PiecePlaces(const std::vector<Wall>& walls, const Pieces& pieces) : walls_(walls) {
+        for (std::int32_t wall = 0; wall < pieces.walls(); ++wall) {
+            for (const Side side : {left, right}) {
+                if (pieces.count(wall, side) == 0) continue;
+                first_.push_back(pieces.first(wall, side));
+                wall_.push_back(wall);
+            }
         }
-        first_.push_back(static_cast<std::int32_t>(pieces));
+        first_.push_back(static_cast<std::int32_t>(pieces.size()));
     }
 
     // Calls f(piece, place) for pieces that ascend.
-    template <class Pieces, class F>
-    void each(const Pieces& pieces, F&& f) const {
+    template <class Numbers, class F>
+    void each(const Numbers& pieces, F&& f) const {
         std::size_t face = 0;
         std::int32_t end = 0;  // of the side at hand
         double length = 0;

@@ -25,9 +25,16 @@ AngleSource angles_of(const CoverageTable& table) {
 }
 
 std::vector<double> piece_lengths_m(const Pieces& pieces) {
-    std::vector<double> out(at(pieces.size()));
-    for (std::size_t p = 0; p < out.size(); ++p) {
-        out[p] = pieces.length_m(static_cast<std::int64_t>(p));
+    std::vector<double> out;
+    out.reserve(at(pieces.size()));
+    for (std::int32_t wall = 0; wall < pieces.walls(); ++wall) {
+        const double length = pieces.wall_length_m(wall);
+        for (const Side side : {left, right}) {
+            const std::int32_t n = pieces.count(wall, side);
+            for (std::int32_t k = 0; k < n; ++k) {
+                out.push_back(piece_begin_m(length, k + 1, n) - piece_begin_m(length, k, n));
+            }
+        }
     }
     return out;
 }

@@ -7,6 +7,7 @@
 
 #include "engine/config.h"
 #include "engine/progress.h"
+#include "engine/ranks.h"
 
 namespace vfplan {
 
@@ -18,8 +19,10 @@ struct JobOptions {
     bool plan = true;      // false: stop behind the tables
 };
 
-// run, precompute and --dry-run. Returns what a person wants to read. Throws Error.
-std::string run_job(const Config& config, const JobOptions& options, Progress& progress);
+// run, precompute and --dry-run, by all ranks together. Returns what a person wants to read, on the
+// leader. Throws Error.
+std::string run_job(const Config& config, const JobOptions& options, const Ranks& ranks,
+                    Progress& progress);
 
 // plan DIR: plans again from the tables of a run directory. `overrides` may set plan.* and
 // overlap.* only.

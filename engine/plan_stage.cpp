@@ -25,7 +25,7 @@ void add_number(Sha256& hash, T value) {
     hash.add(&value, sizeof value);
 }
 
-MapInput map_of(const Config& config, const FieldTable& field, const CoverageTables& t,
+MapInput map_of(const Config& config, const FieldFile::Reduced& field, const CoverageTables& t,
                 const Planned& planned) {
     MapInput map;
     map.title = std::filesystem::path(config.site.input).filename().string();
@@ -46,8 +46,9 @@ MapInput map_of(const Config& config, const FieldTable& field, const CoverageTab
             planned.plan.pieces[p] == PieceStatus::unreached) {
             continue;
         }
-        const Wall& wall = t.walls[static_cast<std::size_t>(t.pieces.wall[p])];
-        map.uncovered.push_back({wall.at(t.pieces.s0_m[p]), wall.at(t.pieces.s1_m[p])});
+        const Pieces::Place place = t.pieces.place(static_cast<std::int64_t>(p));
+        const Wall& wall = t.walls[static_cast<std::size_t>(place.wall)];
+        map.uncovered.push_back({wall.at(place.s0_m), wall.at(place.s1_m)});
     }
     return map;
 }
@@ -58,18 +59,20 @@ PlanOptions plan_options(const Config& c) {
     return {c.plan.method, c.plan.loops, ratio_of(c.overlap.ratio), c.overlap.threshold};
 }
 
-PlanTables plan_tables_of(const CoverageTables& t, OverlapRatio ratio) {
-    return {t.walls,
-            t.pieces.first_of,
-            t.reach,
-            t.candidates,
-            piece_rows(t.table, by_angle(ratio)),
+PlanTables plan_tables_of(const CoverageTables& t, const CoverageEntries& entries,
+                          OverlapRatio ratio) {
+    const std::int64_t all = t.entries();
+    return {t,
+            {t.begin, entries.pieces(0, all),
+             by_angle(ratio) ? entries.angles_rad(0, all) : std::vector<float>()},
             piece_lengths_m(t.pieces),
-            angles_of(t.table)};
+            [&entries](std::int64_t from, std::int64_t count) {
+                return entries.angles_rad(from, count);
+            }};
 }
 
-Planned plan_rows(const PlanOptions& options, double range_max_m, const PlanTables& t,
-                  const Threads& threads, Progress& progress) {
+Planned plan_tables(const PlanOptions& options, double range_max_m, const PlanTables& t,
+                    const Threads& threads, Progress& progress) {
     const auto pieces = static_cast<std::int64_t>(t.piece_length_m.size());
     Planned out;
     progress.stage("overlap");
@@ -82,43 +85,40 @@ Planned plan_rows(const PlanOptions& options, double range_max_m, const PlanTabl
                               options.threshold);
     }
     const Graph graph = make_graph(std::move(pairs));
-    const PlanInput input{t.candidates, t.rows, t.piece_length_m, t.reach, graph};
+    const PlanInput input{t.coverage.candidates, t.rows, t.piece_length_m, t.coverage.reach, graph};
     progress.stage("plan");
     out.plan = make_plan(input, options, out.report);
     out.plan.bound_pieces = std::move(bound_pieces);
     add_ratios(input, t.angles, out.plan);
     progress.stage("metrics");
     out.metrics =
-        measure(threads, input, out.plan, PiecePlaces(t.walls, t.first_of, pieces), range_max_m);
+        measure(threads, input, out.plan, PiecePlaces(t.coverage.walls, t.coverage.pieces), range_max_m);
     progress.stage("joining");
     out.joining = find_joining(threads, input, options, out.plan);
     return out;
 }
 
-Planned plan_tables(const Config& config, const CoverageTables& t, const Threads& threads,
-                    Progress& progress) {
-    const PlanOptions options = plan_options(config);
-    return plan_rows(options, config.scanner.range_max_m, plan_tables_of(t, options.ratio), threads,
-                     progress);
-}
-
-std::string result_hash(const FieldTable& field, const CoverageTables& t, const Plan& plan) {
+std::string result_hash(const FieldFile& field, const CoverageTables& t,
+                        const CoverageEntries& entries, const Plan& plan) {
     Sha256 h;
-    h.add(field.vf_rad);
+    field.each_band([&](const Window&, const Raster<float>& vf_rad) { h.add(vf_rad); });
     for (const Candidate& c : t.candidates) {
         add_number(h, c.at.x());
         add_number(h, c.at.y());
         add_number(h, c.cell);
         add_number(h, c.kind);
     }
-    h.add(t.table.begin);
-    for (const Seen& s : t.table.seen) {
-        add_number(h, s.piece);
-        add_number(h, s.fraction);
-        add_number(h, s.angle_rad);
+    h.add(t.begin);
+    constexpr std::int64_t at_once = 1 << 20;
+    for (std::int64_t from = 0; from < t.entries(); from += at_once) {
+        const std::int64_t count = std::min(at_once, t.entries() - from);
+        h.add(entries.pieces(from, count));
+        h.add(entries.fractions(from, count));
+        h.add(entries.angles_rad(from, count));
     }
-    h.add(t.pieces.s0_m);
-    h.add(t.pieces.s1_m);
+    for (const Wall& w : t.walls) {
+        for (const double v : {w.a.x(), w.a.y(), w.b.x(), w.b.y()}) add_number(h, v);
+    }
     h.add(t.reach);
     for (const Station& s : plan.stations) {
         add_number(h, s.candidate);
@@ -186,7 +186,7 @@ nlohmann::ordered_json summary_of(const Planned& p, const CoverageTables& t) {
     return j;
 }
 
-void write_plan_files(const RunDir& dir, const Config& config, const FieldTable& field,
+void write_plan_files(const RunDir& dir, const Config& config, const FieldFile& field,
                       const CoverageTables& t, const Planned& p) {
     write_plan(dir.file("plan.h5"),
                {p.plan, t.key, config.overlap.ratio, config.overlap.threshold});
@@ -201,11 +201,13 @@ void write_plan_files(const RunDir& dir, const Config& config, const FieldTable&
     };
     put("csv", "stations.csv", [&] { return stations_csv(t, p.plan); });
     put("csv", "links.csv", [&] { return links_csv(p.plan); });
-    put("csv", "pieces.csv", [&] { return pieces_csv(t, p.plan); });
+    if (asked("csv", "pieces.csv")) write_pieces_csv(dir.file("pieces.csv"), t, p.plan);
     put("geojson", "stations.geojson", [&] { return stations_geojson(t, p.plan); });
     if (asked("gpkg", "plan.gpkg")) write_gpkg(dir.file("plan.gpkg"), t, p.plan);
     put("png", "map.png", [&] {
-        return map_png(map_of(config, field, t, p), static_cast<int>(config.output.map_px));
+        constexpr std::int64_t cells_most = std::int64_t{1} << 24;
+        const FieldFile::Reduced reduced = field.reduced(cells_most);
+        return map_png(map_of(config, reduced, t, p), static_cast<int>(config.output.map_px));
     });
 }
 

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 
@@ -21,6 +22,21 @@ double seconds(clockid_t clock) {
 std::string span_text(double s) {
     if (s < 60) return fmt::format("{:.1f} s", s);
     return fmt::format("{}:{:02d} min", static_cast<int>(s) / 60, static_cast<int>(s) % 60);
+}
+
+// The kernel keeps the highest resident memory, and forgets it when told so (Linux; where it may not
+// be told, stages show the highest so far).
+double peak_now_mb() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+void forget_peak() {
+    if (std::FILE* file = std::fopen("/proc/self/clear_refs", "w")) {
+        std::fputs("5", file);
+        std::fclose(file);
+    }
 }
 
 }  // namespace
@@ -45,7 +61,6 @@ void Progress::stage(const std::string& name, std::int64_t total) {
 }
 
 void Progress::advance(std::int64_t steps) {
-    stop_if_asked();
     const std::int64_t done = done_ += steps;
     if (quiet_ || total_ == 0) return;
     const std::unique_lock lock(showing_, std::try_to_lock);
@@ -83,17 +98,19 @@ void Progress::note(const std::string& text) {
 void Progress::finish() {
     if (name_.empty()) return;
     const Moment now = Moment::now();
-    times_.push_back({name_, now.wall_s - stage_begin_.wall_s, now.cpu_s - stage_begin_.cpu_s});
+    times_.push_back({name_, now.wall_s - stage_begin_.wall_s, now.cpu_s - stage_begin_.cpu_s,
+                      peak_now_mb()});
+    forget_peak();
     if (!quiet_ && times_.back().wall_s >= 0.1) {
         note(fmt::format("{:<12} {}", name_, span_text(times_.back().wall_s)));
     }
     name_.clear();
 }
 
-double peak_rss_mb() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024;
+double Progress::peak_rss_mb() const {
+    double most = peak_now_mb();
+    for (const StageTime& s : times_) most = std::max(most, s.peak_rss_mb);
+    return most;
 }
 
 }  // namespace vfplan

@@ -22,10 +22,11 @@ struct StageTime {
     std::string name;
     double wall_s = 0;
     double cpu_s = 0;
+    double peak_rss_mb = 0;  // highest resident memory in it
 };
 
-// Standard error only. advance() may be called from any thread, the rest from one. stage() and
-// advance() throw Stopped when a signal asked for an end.
+// Standard error only. advance() and note() may be called from any thread, the rest from one. stage()
+// throws Stopped when a signal asked for an end.
 class Progress {
 public:
     explicit Progress(bool quiet);
@@ -36,6 +37,7 @@ public:
     void note(const std::string& text);  // a line of its own
     void finish();                       // ends the last stage
     const std::vector<StageTime>& times() const { return times_; }
+    double peak_rss_mb() const;  // of all stages so far
     double wall_s() const { return Moment::now().wall_s - begin_.wall_s; }
 
 private:
@@ -54,7 +56,5 @@ private:
     std::vector<StageTime> times_;
 };
 
-// Highest resident memory of this process so far, in MB.
-double peak_rss_mb();
 
 }  // namespace vfplan

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "io/files.h"
 #include "io/sha256.h"
 #include "kernels/error.h"
@@ -10,7 +12,7 @@ namespace vfplan {
 namespace {
 
 constexpr const char* key_label = "# job ";
-constexpr const char* format = "vfplan tables 1\n";
+constexpr const char* format = "vfplan tables 2\n";
 
 }  // namespace
 
@@ -40,7 +42,11 @@ void RunDir::check(const JobKeys& keys, bool fresh) const {
         throw IoError(fmt::format("{}: is a file, and a run needs a folder; choose another --out",
                                   path_.string()));
     }
-    if (std::filesystem::is_empty(path_, error)) return;
+    const auto begun = [](const std::filesystem::directory_entry& e) {  // and killed at once
+        return e.path().filename() == "job.toml.tmp";
+    };
+    const std::filesystem::directory_iterator entries(path_, error);
+    if (std::all_of(begin(entries), end(entries), begun)) return;
     if (!std::filesystem::exists(file("job.toml"), error)) {
         throw UsageError(
             fmt::format("{}: holds files but no run of this program; choose another "
@@ -60,9 +66,27 @@ void RunDir::write_job(const Config& config, const JobKeys& keys) const {
     write_text(file("job.toml"), fmt::format("{}{}\n{}", key_label, keys.job, to_toml(config)));
 }
 
-ClaimedFolder::ClaimedFolder(const std::filesystem::path& path) {
+void RunDir::remove_plan() const {
+    std::error_code ignored;
+    for (const char* name : {"summary.json", "plan.h5", "stations.csv", "stations.geojson",
+                             "links.csv", "pieces.csv", "plan.gpkg", "map.png"}) {
+        std::filesystem::remove(file(name), ignored);
+    }
+}
+
+void RunDir::remove_run() const {
+    remove_plan();
+    std::error_code ignored;
+    for (const char* name : {"field.h5", "coverage.h5", "shards", "work", "provenance.json"}) {
+        std::filesystem::remove_all(file(name), ignored);
+    }
+}
+
+ClaimedFolder::ClaimedFolder(const RunDir& dir, const Config& config, const JobKeys& keys,
+                             bool fresh)
+    : dir_(dir) {
     std::error_code error;
-    const std::filesystem::path whole = std::filesystem::absolute(path).lexically_normal();
+    const std::filesystem::path whole = std::filesystem::absolute(dir.path()).lexically_normal();
     std::filesystem::path part;
     for (const std::filesystem::path& name : whole) {
         part /= name;
@@ -70,22 +94,36 @@ ClaimedFolder::ClaimedFolder(const std::filesystem::path& path) {
         if (!std::filesystem::create_directory(part, error) || error) break;
         created_.push_back(part);
     }
-    if (!std::filesystem::is_directory(whole, error)) {
-        const ClaimedFolder undo(std::move(created_));
-        throw IoError(
-            fmt::format("{}: the folder cannot be created; choose another --out", path.string()));
-    }
     try {
-        write_text(whole / "writable", "");
-        std::filesystem::remove(whole / "writable", error);
-    } catch (const IoError&) {
-        const ClaimedFolder undo(std::move(created_));
+        if (!std::filesystem::is_directory(whole, error)) {
+            throw IoError(fmt::format("{}: the folder cannot be created; choose another --out",
+                                      dir.path().string()));
+        }
+        new_job_ = !std::filesystem::exists(dir.file("job.toml"), error);
+        if (fresh) dir.remove_run();
+        dir.write_job(config, keys);
+        for (const char* name : {"shards", "work"}) {
+            std::filesystem::create_directories(dir.file(name), error);
+            if (!error) continue;
+            throw IoError(fmt::format("{}: cannot create: {}; check free space and permissions",
+                                      dir.file(name).string(), error.message()));
+        }
+    } catch (...) {
+        undo();
         throw;
     }
 }
 
 ClaimedFolder::~ClaimedFolder() {
+    if (!kept_) undo();
+}
+
+void ClaimedFolder::undo() {
     std::error_code ignored;
+    if (new_job_) {
+        dir_.remove_run();
+        std::filesystem::remove(dir_.file("job.toml"), ignored);
+    }
     for (auto p = created_.rbegin(); p != created_.rend(); ++p) {
         std::filesystem::remove(*p, ignored);  // only while empty
     }

@@ -32,6 +32,10 @@ public:
     // Writes job.toml. Throws IoError.
     void write_job(const Config& config, const JobKeys& keys) const;
 
+    // Removes what a plan left (it must not stand beside other tables), or everything of a run.
+    void remove_plan() const;
+    void remove_run() const;
+
     // The configuration of a finished precompute or run, with overrides. Throws IoError when it is
     // none.
     Config config(const std::vector<std::string>& overrides = {}) const;
@@ -41,21 +45,26 @@ private:
     std::filesystem::path path_;
 };
 
-// Holds a run directory that may have to be created, so that hours of work are not begun for a
-// folder that cannot be written. Folders that it created go again, unless keep() was called.
+// Takes a run directory for a job: makes the folder, writes job.toml, clears away what `fresh` makes
+// again. So hours of work are not begun for a folder that cannot be written, and whoever finds the
+// folder later knows whose it is. What it made goes again unless keep() is called, so that a job
+// that never began leaves nothing.
 class ClaimedFolder {
 public:
     // Throws IoError when the folder cannot be created or written.
-    explicit ClaimedFolder(const std::filesystem::path& path);
+    ClaimedFolder(const RunDir& dir, const Config& config, const JobKeys& keys, bool fresh);
     ~ClaimedFolder();
     ClaimedFolder(const ClaimedFolder&) = delete;
     ClaimedFolder& operator=(const ClaimedFolder&) = delete;
-    void keep() { created_.clear(); }
+    void keep() { kept_ = true; }
 
 private:
-    explicit ClaimedFolder(std::vector<std::filesystem::path> created)
-        : created_(std::move(created)) {}
-    std::vector<std::filesystem::path> created_;  // outermost first
+    void undo();
+
+    const RunDir& dir_;
+    bool kept_ = false;
+    bool new_job_ = false;                         // there was no job.toml
+    std::vector<std::filesystem::path> created_;  // folders, outermost first
 };
 
 }  // namespace vfplan

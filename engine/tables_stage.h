@@ -1,57 +1,34 @@
 // From a site to the field and coverage tables.
 #pragma once
 
-#include <memory>
+#include <filesystem>
 #include <string>
 
-#include "engine/candidates.h"
 #include "engine/config.h"
 #include "engine/progress.h"
-#include "io/site_reader.h"
-#include "io/tables.h"
+#include "engine/ranks.h"
+#include "engine/scenes.h"
 #include "kernels/scanner.h"
 
 namespace vfplan {
 
-SiteOptions site_options(const Config& config);
 Scanner scanner_of(const Config& config);
 OverlapRatio ratio_of(const std::string& name);
 int rays_of(const Config& config);
+SceneOptions scene_options(const Config& config);
 
-// A site with its grid, ready for views.
-struct Prepared {
-    Site site;
-    Grid grid;
-    Raster<std::uint8_t> standable;  // free and not forbidden
-    std::vector<Vec2d> required;     // plan.required and plan.existing in the site frame
-    std::vector<Vec2d> existing;
-};
+// True when field.h5 and coverage.h5 are of this job and all their shards are there and whole. What
+// is not is named in a note; an index without all its shards is removed.
+bool tables_complete(const std::filesystem::path& dir, const std::string& key, Progress& progress);
 
-// Throws UsageError when the cells do not fit the site or the memory, or a point of the user lies
-// where no station can stand.
-Prepared prepare(const Config& config, Site site);
+// work/site.h5, on the leader alone, unless it is there. Throws as make_site_store().
+void make_site(const Config& config, const std::filesystem::path& dir, const std::string& key,
+               const Threads& threads, Progress& progress);
 
-// What a job will take, for --dry-run.
-struct Estimate {
-    std::int64_t cells = 0;
-    std::int64_t free_cells = 0;
-    std::int64_t pieces = 0;
-    std::int64_t candidates = 0;  // order of magnitude
-    double memory_mb = 0;
-    double disk_mb = 0;
-    double field_s = 0;  // from a sample of views on this machine
-};
-Estimate estimate(const Config& config, const Prepared& prepared, const Threads& threads);
-
-struct Tables {
-    FieldTable field;
-    CoverageTables coverage;
-    CandidateReport report;
-    FieldCounts counts;  // of the field
-};
-
-// Field, skeleton, candidates, coverage. `key` goes into both tables.
-Tables make_tables(const Config& config, const Prepared& prepared, const std::string& key,
-                   const Threads& threads, Progress& progress);
+// Makes what is missing of field.h5 and coverage.h5 in a run directory, on all ranks together:
+// every phase leaves shards, so an end at any instant loses little. Equal jobs give equal bytes;
+// of the field's shards with equal tiles, of all else always. REQUIRES: work/site.h5. Throws Error.
+void make_tables(const Config& config, const std::filesystem::path& dir, const std::string& key,
+                 const Threads& threads, const Ranks& ranks, Progress& progress);
 
 }  // namespace vfplan

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <unordered_map>
 
-#include "engine/graph.h"
+#include "engine/disjoint_sets.h"
 #include "engine/pipeline.h"
 #include "engine/run_dir.h"
+#include "engine/scenes.h"
 #include "engine/tables_stage.h"
-#include "engine/viewer.h"
 #include "io/tables.h"
 #include "kernels/error.h"
 #include "kernels/index.h"
@@ -31,33 +35,109 @@ private:
     bool all_ = true;
 };
 
-// Every piece's status against what the stations' exact rows cover.
-void check_coverage(const CoverageTables& t, const Plan& plan, const std::vector<CoverageRow>& rows,
-                    Checks& checks) {
-    std::vector<std::uint8_t> main(plan.pieces.size(), 0);
-    std::vector<std::uint8_t> other(plan.pieces.size(), 0);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        for (const Seen& s : rows[i]) {
-            (plan.stations[i].network == 0 ? main : other)[at(s.piece)] = 1;
-        }
+// What the stations see, looked at anew.
+struct Again {
+    std::vector<std::uint8_t> main;      // pieces covered by the main network
+    std::vector<std::uint8_t> other;     // by another one
+    std::vector<double> link_overlap;    // of each link
+    std::vector<double> ray_difference;  // rays against the exact view, of each station
+};
+
+// Patch by patch, so that memory is a patch's. The exact kernel made the rows and looks again from
+// the stations: the same mistake twice would not show. Rays share nothing with it but the walls.
+Again look_again(const PlanTable& table, const CoverageTables& t, const Threads& threads,
+                 Scenes& scenes, Progress& progress) {
+    const Plan& plan = table.plan;
+    const Layout& layout = scenes.layout();
+    const OverlapRatio ratio = ratio_of(table.overlap_ratio);
+    Again out{std::vector<std::uint8_t>(plan.pieces.size(), 0),
+              std::vector<std::uint8_t>(plan.pieces.size(), 0),
+              std::vector<double>(plan.links.size(), 0),
+              std::vector<double>(plan.stations.size(), 0)};
+    const auto eye_of = [&](std::int32_t station) {
+        return t.candidates[at(plan.stations[at(station)].candidate)].at;
+    };
+    std::map<std::int64_t, std::vector<std::int32_t>> stations;  // by patch
+    for (std::size_t s = 0; s < plan.stations.size(); ++s) {
+        const auto number = static_cast<std::int32_t>(s);
+        stations[layout.patch_of(layout.cell_at(eye_of(number)))].push_back(number);
     }
+    std::vector<std::int64_t> patches;
+    for (const auto& [patch, of_patch] : stations) patches.push_back(patch);
+    std::vector<std::size_t> link_begin(plan.stations.size() + 1, 0);  // links ascend in `from`
+    for (const Link& l : plan.links) ++link_begin[at(l.from) + 1];
+    std::partial_sum(link_begin.begin(), link_begin.end(), link_begin.begin());
+    std::mutex guard;
+    constexpr int many_rays = 1024;
+    progress.stage("look again", static_cast<std::int64_t>(patches.size()));
+    threads.for_each(
+        static_cast<std::int64_t>(patches.size()), 1, [&](std::int64_t from, std::int64_t to) {
+            for (std::int64_t p = from; p < to; ++p) {
+                const auto scene = scenes.of_patch(patches[at(p)]);
+                const auto margin = eye_margin_m(scenes.options().partition_m);
+                const Window w = layout.patch_window(patches[at(p)]);
+                const Box around{{-margin, -margin},
+                                 layout.grid.cell_m *
+                                         Vec2d(w.x_end - w.x_begin, w.y_end - w.y_begin) +
+                                     Vec2d(margin, margin)};
+                const Scanner& scanner = scenes.options().scanner;
+                const std::unique_ptr<ViewKernel> rays = make_kernel(
+                    "embree", scene->walls(), around, scanner.range_max_m, many_rays);
+                std::unordered_map<std::int32_t, OverlapRow> rows;
+                const auto row_of = [&](std::int32_t station) -> const OverlapRow& {
+                    const auto found = rows.find(station);
+                    if (found != rows.end()) return found->second;
+                    return rows.emplace(station, overlap_row(scenes.look(eye_of(station)).seen))
+                        .first->second;
+                };
+                std::vector<std::int32_t> covered[2];
+                for (const std::int32_t s : stations.at(patches[at(p)])) {
+                    const Scene::Look look = scene->look(eye_of(s));
+                    View hits;
+                    View seen;
+                    const Vec2d here = eye_of(s) - scene->origin();
+                    rays->first_hits(here, hits);
+                    observe(scene->walls(), scanner, here, hits, seen);
+                    out.ray_difference[at(s)] = std::abs(view_angle_rad(seen) - look.vf_rad);
+                    for (const Seen& piece : look.row) {
+                        covered[plan.stations[at(s)].network == 0 ? 0 : 1].push_back(piece.piece);
+                    }
+                    rows.emplace(s, overlap_row(look.seen));
+                    for (std::size_t l = link_begin[at(s)]; l < link_begin[at(s) + 1]; ++l) {
+                        const OverlapRow& other = row_of(plan.links[l].to);
+                        out.link_overlap[l] = overlap(ratio, row_of(s), other);
+                    }
+                }
+                const std::lock_guard lock(guard);
+                for (const std::int32_t piece : covered[0]) out.main[at(piece)] = 1;
+                for (const std::int32_t piece : covered[1]) out.other[at(piece)] = 1;
+                progress.advance(1);
+            }
+        });
+    return out;
+}
+
+// Every piece's status against what the stations cover.
+void check_coverage(const Plan& plan, const Again& again, Checks& checks) {
     std::int64_t covered = 0;
     std::int64_t not_covered = 0;
     std::int64_t unreached = 0;
     std::int64_t unreached_wrong = 0;
+    std::int64_t rest = 0;
     std::int64_t seen_after_all = 0;
     for (std::size_t p = 0; p < plan.pieces.size(); ++p) {
         switch (plan.pieces[p]) {
             case PieceStatus::covered:
                 ++covered;
-                if (main[p] == 0) ++not_covered;
+                if (again.main[p] == 0) ++not_covered;
                 break;
             case PieceStatus::unreached:
                 ++unreached;
-                if (other[p] == 0 || main[p] != 0) ++unreached_wrong;
+                if (again.other[p] == 0 || again.main[p] != 0) ++unreached_wrong;
                 break;
             default:
-                if (main[p] != 0 || other[p] != 0) ++seen_after_all;
+                ++rest;
+                if (again.main[p] != 0 || again.other[p] != 0) ++seen_after_all;
         }
     }
     checks.add(not_covered == 0,
@@ -74,7 +154,6 @@ void check_coverage(const CoverageTables& t, const Plan& plan, const std::vector
                             ? fmt::format("; {} more are said to be and are not", unreached_wrong)
                             : ""));
     }
-    const std::int64_t rest = t.pieces.size() - covered - unreached;
     checks.add(
         seen_after_all == 0,
         fmt::format(
@@ -82,72 +161,77 @@ void check_coverage(const CoverageTables& t, const Plan& plan, const std::vector
             seen_after_all > 0 ? fmt::format("; {} more are, after all", seen_after_all) : ""));
 }
 
-void check_connection(const CoverageTables& t, const PlanTable& table,
-                      const std::vector<CoverageRow>& rows, Checks& checks) {
+void check_connection(const PlanTable& table, const Again& again, Checks& checks) {
     const Plan& plan = table.plan;
-    const OverlapRatio ratio = ratio_of(table.overlap_ratio);
     constexpr double rounding = 1e-6;  // angles are stored as floats
-    std::vector<OverlapPair> pairs;
+    DisjointSets sets(static_cast<std::int64_t>(plan.stations.size()));
     std::int64_t weak = 0;
     double weakest = 1;
-    for (const Link& l : plan.links) {
-        const double o = overlap(ratio, t.pieces, rows[at(l.from)], rows[at(l.to)]);
-        if (o + rounding < table.threshold) ++weak;
-        if (o + rounding >= table.threshold) pairs.push_back({l.from, l.to, o});
+    for (std::size_t i = 0; i < plan.links.size(); ++i) {
+        const double o = again.link_overlap[i];
+        if (o + rounding < table.threshold) {
+            ++weak;
+        } else {
+            sets.merge(plan.links[i].from, plan.links[i].to);
+        }
         weakest = std::min(weakest, o);
     }
     checks.add(weak == 0,
-               fmt::format("{} links overlap by {} >= {}{}", plan.links.size() - at(weak),
+               fmt::format("{} links overlap by {} >= {}{}",
+                           static_cast<std::int64_t>(plan.links.size()) - weak,
                            table.overlap_ratio, table.threshold,
                            weak > 0 ? fmt::format("; {} do not", weak)
                                     : fmt::format(" (weakest {:.4f})",
                                                   plan.links.empty() ? 0.0 : weakest)));
-    const std::vector<std::int32_t> part =
-        components(make_graph(static_cast<std::int32_t>(plan.stations.size()), pairs));
-    std::int32_t networks = 0;
+    std::map<std::int32_t, std::int32_t> first;  // station of each network
     bool whole = true;
-    for (std::size_t a = 0; a < plan.stations.size(); ++a) {
-        networks = std::max(networks, plan.stations[a].network + 1);
-        for (std::size_t b = a + 1; b < plan.stations.size(); ++b) {
-            if (plan.stations[a].network == plan.stations[b].network && part[a] != part[b]) {
-                whole = false;
-            }
-        }
+    for (std::size_t s = 0; s < plan.stations.size(); ++s) {
+        const auto number = static_cast<std::int32_t>(s);
+        const auto found = first.emplace(plan.stations[s].network, number).first;
+        whole = whole && sets.together(found->second, number);
     }
-    checks.add(whole, networks == 1
+    checks.add(whole, first.size() <= 1
                           ? fmt::format("all {} stations are one network", plan.stations.size())
                           : fmt::format("{} stations are {} networks, each connected",
-                                        plan.stations.size(), networks));
+                                        plan.stations.size(), first.size()));
 }
 
-// A spread of free cells, seen anew: the field there, and pieces that are said to have no
-// viewpoint.
-void check_field(const Viewer& viewer, const Threads& threads, const FieldTable& field,
-                 const Plan& plan, const std::string& kernel, Checks& checks) {
-    constexpr std::size_t sample = 1000;
-    std::vector<std::int64_t> cells;
-    for (std::int64_t c = 0; c < field.grid.size(); ++c) {
-        if (!std::isnan(field.vf_rad[at(c)])) cells.push_back(c);
-    }
-    const std::size_t step = std::max<std::size_t>(1, cells.size() / sample);
-    std::vector<std::int64_t> chosen;
-    for (std::size_t i = step / 2; i < cells.size(); i += step) chosen.push_back(cells[i]);
+// Free cells spread evenly over the site, with the field there.
+std::vector<std::pair<std::int64_t, float>> sample_of(const FieldFile& field) {
+    constexpr std::int64_t sample = 1000;
+    std::int64_t cells = 0;
+    const auto free = [](float v) { return !std::isnan(v); };
+    field.each_band([&](const Window&, const Raster<float>& vf) {
+        cells += std::count_if(vf.begin(), vf.end(), free);
+    });
+    const std::int64_t step = std::max<std::int64_t>(1, cells / sample);
+    std::vector<std::pair<std::int64_t, float>> out;
+    std::int64_t number = 0;
+    field.each_band([&](const Window& w, const Raster<float>& vf) {
+        for (std::size_t i = 0; i < vf.size(); ++i) {
+            if (!free(vf[i])) continue;
+            if (number++ % step != step / 2) continue;
+            out.emplace_back(field.grid().id(0, w.y_begin) + static_cast<std::int64_t>(i), vf[i]);
+        }
+    });
+    return out;
+}
+
+// These cells seen anew: the field there, and pieces that are said to have no viewpoint.
+void check_field(Scenes& scenes, const Threads& threads, const FieldFile& field, const Plan& plan,
+                 const std::string& kernel, Checks& checks) {
+    const auto chosen = sample_of(field);
+    std::vector<Vec2d> eyes;
+    for (const auto& [cell, vf] : chosen) eyes.push_back(field.grid().centre(cell));
     std::vector<double> error(chosen.size(), 0);
     std::vector<std::int64_t> seen_after_all(chosen.size(), 0);
-    threads.for_each(
-        static_cast<std::int64_t>(chosen.size()), 8, [&](std::int64_t from, std::int64_t to) {
-            for (std::int64_t i = from; i < to; ++i) {
-                const Vec2d eye = field.grid.centre(chosen[at(i)]);
-                const Viewer::Look look = viewer.look(eye);
-                error[at(i)] =
-                    std::abs(look.vf_rad - static_cast<double>(field.vf_rad[at(chosen[at(i)])]));
-                for (const Seen& s : look.row) {
-                    if (plan.pieces[at(s.piece)] == PieceStatus::no_viewpoint) {
-                        ++seen_after_all[at(i)];
-                    }
-                }
-            }
-        });
+    scenes.each(threads, eyes, [&](std::size_t i, const Scene& scene) {
+        const Scene::Look look = scene.look(eyes[i]);
+        error[i] = std::abs(look.vf_rad - static_cast<double>(chosen[i].second));
+        for (const Seen& s : look.row) {
+            if (plan.pieces[at(s.piece)] == PieceStatus::no_viewpoint) ++seen_after_all[i];
+        }
+    });
     double sum = 0;
     double worst = 0;
     std::int64_t wrong = 0;
@@ -169,43 +253,39 @@ void check_field(const Viewer& viewer, const Threads& threads, const FieldTable&
                                        wrong > 0 ? fmt::format(": {} times wrong", wrong) : ""));
 }
 
-// The exact kernel made the rows and looks again from the stations: the same mistake twice would
-// not show. Rays share nothing with it but the walls.
-void check_with_rays(const Viewer& exact, const Viewer& rays, const Threads& threads,
-                     const std::vector<Vec2d>& eyes, Checks& checks) {
-    std::vector<double> error(eyes.size(), 0);
-    threads.for_each(
-        static_cast<std::int64_t>(eyes.size()), 4, [&](std::int64_t from, std::int64_t to) {
-            for (std::int64_t i = from; i < to; ++i) {
-                const Vec2d& eye = eyes[at(i)];
-                error[at(i)] = std::abs(rays.look(eye).vf_rad - exact.look(eye).vf_rad);
-            }
-        });
+void check_rays(const std::vector<double>& error, Checks& checks) {
     double sum = 0;
     double worst = 0;
     for (const double e : error) {
         sum += e;
         worst = std::max(worst, e);
     }
-    const double mean = eyes.empty() ? 0 : sum / static_cast<double>(eyes.size());
+    const double mean = error.empty() ? 0 : sum / static_cast<double>(error.size());
     checks.add(mean <= 5e-3,
                fmt::format("rays from {} stations: mean difference to the exact views {:.2e} rad, "
                            "worst {:.2e} (mean allowed 5e-03)",
-                           eyes.size(), mean, worst));
+                           error.size(), mean, worst));
 }
 
-void check_bound(const CoverageTables& t, const Plan& plan, Checks& checks) {
+void check_bound(const CoverageTables& t, const CoverageEntries& entries, const Plan& plan,
+                 Checks& checks) {
     std::vector<std::uint8_t> in_bound(plan.pieces.size(), 0);
     for (const std::int32_t p : plan.bound_pieces) in_bound[at(p)] = 1;
     bool good = true;
     std::vector<std::uint8_t> seen(plan.pieces.size(), 0);
-    for (std::int64_t r = 0; r < t.table.rows(); ++r) {
-        int count = 0;
-        for (const Seen* s = t.table.row_begin(r); s != t.table.row_end(r); ++s) {
-            count += in_bound[at(s->piece)];
-            seen[at(s->piece)] = 1;
+    constexpr std::int64_t rows_at_once = 4096;
+    for (std::int64_t first = 0; first < t.rows(); first += rows_at_once) {
+        const std::int64_t last = std::min(t.rows(), first + rows_at_once);
+        const std::int64_t from = t.begin[at(first)];
+        const auto pieces = entries.pieces(from, t.begin[at(last)] - from);
+        for (std::int64_t r = first; r < last; ++r) {
+            int count = 0;
+            for (std::int64_t i = t.begin[at(r)]; i < t.begin[at(r + 1)]; ++i) {
+                count += in_bound[at(pieces[at(i - from)])];
+                seen[at(pieces[at(i - from)])] = 1;
+            }
+            good = good && count <= 1;
         }
-        good = good && count <= 1;
     }
     for (const std::int32_t p : plan.bound_pieces) good = good && seen[at(p)] != 0;
     checks.add(good && plan.bound_pieces.size() <= plan.stations.size(),
@@ -239,41 +319,48 @@ VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Pro
     const RunDir dir(path);
     const Config config = dir.config();
     progress.stage("read");
-    const FieldTable field = read_field(dir.file("field.h5"));
+    const FieldFile field(dir.file("field.h5"));
     const CoverageTables t = read_coverage(dir.file("coverage.h5"));
+    const CoverageEntries entries(dir.file("coverage.h5"));
     if (!std::filesystem::exists(dir.file("plan.h5"))) {
         throw IoError(fmt::format("{}: tables, but no plan.h5 yet; make it with vfplan plan {}",
                                   path.string(), path.string()));
     }
     const PlanTable table = read_plan(dir.file("plan.h5"));
     Checks checks;
-    checks.add(table.key == t.key && field.key == t.key,
+    checks.add(table.key == t.key && field.info().key == t.key,
                "field, coverage and plan belong to one job");
     checks.add(fits(t, table.plan), "the plan's numbers point into its tables");
     if (!checks.result().good) return checks.result();
-    progress.stage("look again");
-    Box box{field.grid.origin,
-            field.grid.origin + field.grid.cell_m * Vec2d(field.grid.nx, field.grid.ny)};
-    for (const Candidate& c : t.candidates) box.add(c.at);
-    const std::unique_ptr<ViewKernel> exact =
-        make_kernel("exact", t.walls, box, config.scanner.range_max_m, 0);
-    const Viewer viewer(*exact, t.walls, t.pieces, scanner_of(config),
-                        config.coverage.visible_fraction);
-    std::vector<Vec2d> eyes;
-    for (const Station& s : table.plan.stations) eyes.push_back(t.candidates[at(s.candidate)].at);
-    const std::vector<CoverageRow> rows = viewer.rows(threads, eyes);
-
-    check_coverage(t, table.plan, rows, checks);
-    check_connection(t, table, rows, checks);
-    check_field(viewer, threads, field, table.plan, config.visibility.kernel, checks);
-    constexpr int many_rays = 1024;
-    const std::unique_ptr<ViewKernel> embree =
-        make_kernel("embree", t.walls, box, config.scanner.range_max_m, many_rays);
-    check_with_rays(
-        viewer,
-        Viewer(*embree, t.walls, t.pieces, scanner_of(config), config.coverage.visible_fraction),
-        threads, eyes, checks);
-    check_bound(t, table.plan, checks);
+    SceneOptions options = scene_options(config);
+    options.kernel = "exact";
+    const Layout& layout = field.info().layout;
+    const NearWalls near = near_walls(
+        layout, t.walls, options.scanner.range_max_m + eye_margin_m(options.partition_m));
+    const auto patch_of_tables = [&](std::int64_t patch) {
+        PatchSite site;
+        for (std::int64_t i = near.begin[at(patch)]; i < near.begin[at(patch) + 1]; ++i) {
+            const std::int32_t w = near.wall[at(i)];
+            site.number.push_back(w);
+            site.walls.push_back(t.walls[at(w)]);
+            std::int32_t most = 0;
+            for (const Side side : {left, right}) {
+                const std::int32_t n = t.pieces.count(w, side);
+                site.first[side].push_back(n > 0 ? t.pieces.first(w, side) : -1);
+                most = std::max(most, n);
+            }
+            site.count.push_back(most);
+        }
+        return site;
+    };
+    Scenes scenes(layout, patch_of_tables, options, 16 * threads.count());
+    const Again again = look_again(table, t, threads, scenes, progress);
+    check_coverage(table.plan, again, checks);
+    check_connection(table, again, checks);
+    progress.stage("field");
+    check_field(scenes, threads, field, table.plan, config.visibility.kernel, checks);
+    check_rays(again.ray_difference, checks);
+    check_bound(t, entries, table.plan, checks);
     progress.finish();
     return checks.result();
 }

@@ -4,6 +4,8 @@
 
 #include <iterator>
 
+#include "io/files.h"
+
 namespace vfplan {
 namespace {
 
@@ -64,17 +66,35 @@ std::string links_csv(const Plan& plan) {
     return out;
 }
 
-std::string pieces_csv(const CoverageTables& t, const Plan& plan) {
-    std::string out = "id,x0,y0,x1,y1,length_m,status\n";
-    for (std::size_t p = 0; p < plan.pieces.size(); ++p) {
-        const Wall& wall = t.walls[static_cast<std::size_t>(t.pieces.wall[p])];
-        const Vec2d a = t.origin + wall.at(t.pieces.s0_m[p]);
-        const Vec2d b = t.origin + wall.at(t.pieces.s1_m[p]);
-        fmt::format_to(std::back_inserter(out), "{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{}\n", p,
-                       a.x(), a.y(), b.x(), b.y(), t.pieces.s1_m[p] - t.pieces.s0_m[p],
-                       piece_status_names[static_cast<std::size_t>(plan.pieces[p])]);
+void write_pieces_csv(const std::filesystem::path& file, const CoverageTables& t,
+                      const Plan& plan) {
+    constexpr std::size_t at_once = 1U << 20;  // bytes
+    TextFile out(file);
+    std::string text = "id,x0,y0,x1,y1,length_m,status\n";
+    std::size_t p = 0;
+    for (std::size_t w = 0; w < t.walls.size(); ++w) {
+        const Wall& wall = t.walls[w];
+        const double length = wall.length_m();
+        for (const Side side : {left, right}) {
+            const std::int32_t n = t.pieces.count(static_cast<std::int32_t>(w), side);
+            for (std::int32_t k = 0; k < n; ++k, ++p) {
+                const double s0 = piece_begin_m(length, k, n);
+                const double s1 = piece_begin_m(length, k + 1, n);
+                const Vec2d a = t.origin + wall.at(s0);
+                const Vec2d b = t.origin + wall.at(s1);
+                fmt::format_to(std::back_inserter(text),
+                               "{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{}\n", p, a.x(), a.y(),
+                               b.x(), b.y(), s1 - s0,
+                               piece_status_names[static_cast<std::size_t>(plan.pieces[p])]);
+            }
+        }
+        if (text.size() >= at_once) {
+            out.add(text);
+            text.clear();
+        }
     }
-    return out;
+    out.add(text);
+    out.close();
 }
 
 }  // namespace vfplan

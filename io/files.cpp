@@ -38,21 +38,35 @@ std::string read_text(const std::filesystem::path& file) {
     return out.str();
 }
 
+TextFile::TextFile(std::filesystem::path file) : file_(std::move(file)), aside_(file_) {
+    aside_ += ".tmp";
+    out_.open(aside_, std::ios::binary | std::ios::trunc);
+    if (!out_) fail(file_, "write");
+}
+
+TextFile::~TextFile() {
+    if (!out_.is_open()) return;
+    out_.close();
+    std::error_code ignored;
+    std::filesystem::remove(aside_, ignored);
+}
+
+void TextFile::add(const std::string& text) {
+    out_.write(text.data(), static_cast<std::streamsize>(text.size()));
+    if (!out_) fail(file_, "write");
+}
+
+void TextFile::close() {
+    out_.flush();
+    if (!out_) fail(file_, "write");
+    out_.close();
+    publish(aside_, file_);
+}
+
 void write_text(const std::filesystem::path& file, const std::string& text) {
-    std::filesystem::path aside = file;
-    aside += ".tmp";
-    {
-        std::ofstream out(aside, std::ios::binary | std::ios::trunc);
-        if (!out) fail(file, "write");
-        out.write(text.data(), static_cast<std::streamsize>(text.size()));
-        out.flush();
-        if (!out) {
-            std::error_code ignored;
-            std::filesystem::remove(aside, ignored);
-            fail(file, "write");
-        }
-    }
-    publish(aside, file);
+    TextFile out(file);
+    out.add(text);
+    out.close();
 }
 
 void publish(const std::filesystem::path& aside, const std::filesystem::path& file) {

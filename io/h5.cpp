@@ -7,9 +7,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <numeric>
 
+#include "io/chunks.h"
 #include "io/files.h"
+#include "io/sha256.h"
 #include "kernels/error.h"
 
 namespace vfplan::h5 {
@@ -63,18 +69,32 @@ void be_quiet() {
     (void)once;
 }
 
-constexpr std::uint64_t chunk_values = 1U << 18;  // 1-2 MB, a good size for deflate and readers
+constexpr std::uint64_t plane_side = 512;  // chunks of two dimensions: 512 x 512
 
-// Square-ish chunks in two dimensions, runs in one.
-Dims chunk_of(const Dims& dims) {
-    Dims chunk = dims;
-    if (dims.size() == 1) chunk[0] = std::min<std::uint64_t>(dims[0], chunk_values);
-    if (dims.size() == 2) {
-        chunk[0] = std::min<std::uint64_t>(dims[0], 512);
-        chunk[1] = std::min<std::uint64_t>(dims[1], 512);
-    }
-    return chunk;
+hid_t layout_with_filters(const Dims& chunk) {
+    const hid_t create = H5Pcreate(H5P_DATASET_CREATE);
+    const std::vector<hsize_t> c(chunk.begin(), chunk.end());
+    H5Pset_obj_track_times(create, false);
+    H5Pset_chunk(create, static_cast<int>(c.size()), c.data());
+    H5Pset_shuffle(create);
+    H5Pset_deflate(create, deflate_level);
+    H5Pset_fletcher32(create);
+    return create;
 }
+
+// A dataset of one dimension in the making. Full chunks are compressed here, not inside the
+// library, which lets one thread at a time do anything.
+struct Open {
+    hid_t set = -1;
+    std::uint64_t count = 0;
+    std::uint64_t written = 0;  // values that are in full chunks already
+    std::uint64_t chunk = 0;    // values in one
+    std::size_t width = 0;      // bytes of a value
+    std::vector<std::uint8_t> rest;
+};
+
+constexpr const char* trailer_label = "\nvfplan sha256 ";
+constexpr std::size_t trailer_size = 15 + 64 + 1;
 
 }  // namespace
 
@@ -82,6 +102,45 @@ struct Writer::Impl {
     std::filesystem::path path;
     std::filesystem::path aside;
     hid_t file = -1;
+    std::map<std::string, Open> open = {};
+
+    void write_chunk(const std::string& name, Open& o, const std::uint8_t* data) const {
+        const std::vector<std::uint8_t> packed = pack_chunk(data, o.chunk * o.width, o.width);
+        const hsize_t offset = o.written;
+        if (H5Dwrite_chunk(o.set, H5P_DEFAULT, 0, &offset, packed.size(), packed.data()) < 0) {
+            fail(name);
+        }
+        o.written += o.chunk;
+    }
+    void append(const std::string& name, const std::uint8_t* data, std::size_t size) {
+        const auto found = open.find(name);
+        if (found == open.end()) fail(name + " (not begun)");
+        Open& o = found->second;
+        const std::size_t whole = o.chunk * o.width;
+        while (size > 0) {
+            if (o.rest.empty() && size >= whole) {  // straight from the caller
+                write_chunk(name, o, data);
+                data += whole;
+                size -= whole;
+                continue;
+            }
+            const std::size_t part = std::min(size, whole - o.rest.size());
+            o.rest.insert(o.rest.end(), data, data + part);
+            data += part;
+            size -= part;
+            if (o.rest.size() < whole) break;
+            write_chunk(name, o, o.rest.data());
+            o.rest.clear();
+        }
+        if (o.written + o.rest.size() / o.width < o.count) return;
+        if (o.written + o.rest.size() / o.width > o.count) fail(name + " (more than was begun)");
+        if (!o.rest.empty()) {
+            o.rest.resize(whole, 0);
+            write_chunk(name, o, o.rest.data());
+        }
+        H5Dclose(o.set);
+        open.erase(found);
+    }
 
     [[noreturn]] void fail(const std::string& what) const {
         throw IoError(fmt::format("{}: cannot write {}; check free space and permissions",
@@ -95,7 +154,7 @@ struct Writer::Impl {
     }
 };
 
-Writer::Writer(std::filesystem::path path) : impl_(new Impl{std::move(path), {}, -1}) {
+Writer::Writer(std::filesystem::path path) : impl_(new Impl{std::move(path), {}, -1, {}}) {
     be_quiet();
     impl_->aside = impl_->path;
     impl_->aside += ".tmp";
@@ -114,7 +173,9 @@ Writer::Writer(std::filesystem::path path) : impl_(new Impl{std::move(path), {},
 }
 
 Writer::~Writer() {
+    if (impl_ == nullptr) return;
     if (impl_->file >= 0) {
+        for (auto& [name, o] : impl_->open) H5Dclose(o.set);
         H5Fclose(impl_->file);
         std::error_code ignored;
         std::filesystem::remove(impl_->aside, ignored);
@@ -130,56 +191,107 @@ void Writer::group(const std::string& name) {
 }
 
 template <class T>
-void Writer::write(const std::string& name, const std::vector<T>& data, Dims dims) {
+void Writer::write(const std::string& name, const std::vector<T>& data, Dims dims,
+                   std::uint64_t chunk) {
     if (dims.empty()) dims = {data.size()};
     const std::uint64_t count =
         std::accumulate(dims.begin(), dims.end(), std::uint64_t{1}, std::multiplies<>());
     if (count != data.size()) impl_->fail(name + " (its shape does not fit)");
+    constexpr std::uint64_t worth_packing = 256;
+    if (count >= worth_packing && dims.size() == 1) {
+        begin<T>(name, count, chunk);
+        append(name, data);
+        return;
+    }
+    const std::vector<hsize_t> shape(dims.begin(), dims.end());
+    const Id space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+                   H5Sclose);
+    const bool plane = count >= worth_packing && dims.size() == 2;
+    const Dims block = plane ? Dims{std::min(dims[0], plane_side), std::min(dims[1], plane_side)}
+                             : Dims{};
+    const Id create(plane ? layout_with_filters(block) : H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_obj_track_times(create, false);
+    const Id set(H5Dcreate2(impl_->file, name.c_str(), type_of<T>(), space, H5P_DEFAULT, create,
+                            H5P_DEFAULT),
+                 H5Dclose);
+    if (set < 0) impl_->fail(name);
+    if (count == 0) return;
+    if (!plane) {
+        if (H5Dwrite(set, type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()) < 0) {
+            impl_->fail(name);
+        }
+        return;
+    }
+    std::vector<T> values(block[0] * block[1]);
+    for (std::uint64_t y = 0; y < dims[0]; y += block[0]) {
+        for (std::uint64_t x = 0; x < dims[1]; x += block[1]) {
+            std::fill(values.begin(), values.end(), T{});
+            const std::uint64_t columns = std::min(block[1], dims[1] - x);
+            for (std::uint64_t row = 0; row < std::min(block[0], dims[0] - y); ++row) {
+                const T* from = data.data() + (y + row) * dims[1] + x;
+                std::copy(from, from + columns, values.data() + row * block[1]);
+            }
+            const std::vector<std::uint8_t> packed =
+                pack_chunk(reinterpret_cast<const std::uint8_t*>(values.data()),
+                           values.size() * sizeof(T), sizeof(T));
+            const hsize_t offset[2] = {y, x};
+            if (H5Dwrite_chunk(set, H5P_DEFAULT, 0, offset, packed.size(), packed.data()) < 0) {
+                impl_->fail(name);
+            }
+        }
+    }
+}
+
+template <class T>
+void Writer::begin(const std::string& name, std::uint64_t count, std::uint64_t chunk) {
+    const hsize_t shape = count;
+    const Id space(H5Screate_simple(1, &shape, nullptr), H5Sclose);
+    chunk = std::max<std::uint64_t>(1, std::min(chunk, count));
+    const Id create(count > 0 ? layout_with_filters({chunk}) : H5Pcreate(H5P_DATASET_CREATE),
+                    H5Pclose);
+    H5Pset_obj_track_times(create, false);
+    const hid_t set = H5Dcreate2(impl_->file, name.c_str(), type_of<T>(), space, H5P_DEFAULT,
+                                 create, H5P_DEFAULT);
+    if (set < 0) impl_->fail(name);
+    if (count == 0) {
+        H5Dclose(set);
+        return;
+    }
+    impl_->open[name] = {set, count, 0, chunk, sizeof(T), {}};
+}
+
+template <class T>
+void Writer::append(const std::string& name, const std::vector<T>& data) {
+    if (data.empty()) return;
+    impl_->append(name, reinterpret_cast<const std::uint8_t*>(data.data()),
+                  data.size() * sizeof(T));
+}
+
+template <class T>
+void Writer::write_virtual(const std::string& name, const Dims& dims,
+                           const std::vector<Source>& sources, T fill) {
     const std::vector<hsize_t> shape(dims.begin(), dims.end());
     const Id space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
                    H5Sclose);
     const Id create(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_obj_track_times(create, false);
-    if (count >= 256) {
-        const Dims chunk = chunk_of(dims);
-        const std::vector<hsize_t> c(chunk.begin(), chunk.end());
-        H5Pset_chunk(create, static_cast<int>(c.size()), c.data());
-        H5Pset_shuffle(create);
-        H5Pset_deflate(create, 1);
-        H5Pset_fletcher32(create);
+    H5Pset_fill_value(create, type_of<T>(), &fill);
+    if (sources.empty()) H5Pset_layout(create, H5D_VIRTUAL);
+    for (const Source& source : sources) {
+        const std::vector<hsize_t> offset(source.offset.begin(), source.offset.end());
+        const std::vector<hsize_t> part(source.shape.begin(), source.shape.end());
+        const Id from(H5Screate_simple(static_cast<int>(part.size()), part.data(), nullptr),
+                      H5Sclose);
+        H5Sselect_hyperslab(space, H5S_SELECT_SET, offset.data(), nullptr, part.data(), nullptr);
+        if (H5Pset_virtual(create, space, source.file.c_str(), source.dataset.c_str(), from) < 0) {
+            impl_->fail(name);
+        }
     }
+    H5Sselect_all(space);
     const Id set(H5Dcreate2(impl_->file, name.c_str(), type_of<T>(), space, H5P_DEFAULT, create,
                             H5P_DEFAULT),
                  H5Dclose);
     if (set < 0) impl_->fail(name);
-    if (count > 0 && H5Dwrite(set, type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()) < 0) {
-        impl_->fail(name);
-    }
-}
-
-void Writer::write_strings(const std::string& name, const std::vector<std::string_view>& data) {
-    std::size_t width = 1;
-    for (const auto& s : data) width = std::max(width, s.size());
-    std::string flat;
-    for (const auto& s : data) {
-        flat.append(s);
-        flat.append(width - s.size(), '\0');
-    }
-    const Id type(H5Tcopy(H5T_C_S1), H5Tclose);
-    H5Tset_size(type, width);
-    H5Tset_strpad(type, H5T_STR_NULLPAD);
-    H5Tset_cset(type, H5T_CSET_UTF8);
-    const hsize_t count = data.size();
-    const Id space(H5Screate_simple(1, &count, nullptr), H5Sclose);
-    const Id create(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_obj_track_times(create, false);
-    const Id set(
-        H5Dcreate2(impl_->file, name.c_str(), type, space, H5P_DEFAULT, create, H5P_DEFAULT),
-        H5Dclose);
-    if (set < 0 ||
-        (count > 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, flat.data()) < 0)) {
-        impl_->fail(name);
-    }
 }
 
 void Writer::attribute(const std::string& object, const std::string& name,
@@ -222,12 +334,70 @@ void Writer::scale(const std::string& dataset, unsigned dim, const std::string& 
 }
 
 void Writer::close() {
+    if (!impl_->open.empty()) impl_->fail(impl_->open.begin()->first + " (not all of it came)");
     if (H5Fclose(impl_->file) < 0) {
         impl_->file = -1;
         impl_->fail("the file to its end");
     }
     impl_->file = -1;
+    {
+        const std::string hash = sha256_of_file(impl_->aside);
+        std::ofstream out(impl_->aside, std::ios::binary | std::ios::app);
+        out << trailer_label << hash << "\n";
+        out.flush();
+        if (!out) impl_->fail("the file to its end");
+    }
     publish(impl_->aside, impl_->path);
+}
+
+namespace {
+
+[[noreturn]] void damaged(const std::filesystem::path& path, const char* what) {
+    throw IoError(fmt::format("{}: {}; the file is damaged or not one of ours, run the job again "
+                              "and it is made anew",
+                              path.string(), what));
+}
+
+}  // namespace
+
+std::string checked_hash(const std::filesystem::path& path) {
+    // Once for each state of a file: shards are read many times.
+    using State = std::pair<std::uintmax_t, std::filesystem::file_time_type>;
+    static std::mutex guard;
+    static std::map<std::string, std::pair<State, std::string>> known;
+    std::error_code error;
+    const State state{std::filesystem::file_size(path, error),
+                      std::filesystem::last_write_time(path, error)};
+    if (error) {
+        throw IoError(fmt::format("{}: no such file; is this the folder of a finished run?",
+                                  path.string()));
+    }
+    {
+        const std::lock_guard lock(guard);
+        const auto found = known.find(path.string());
+        if (found != known.end() && found->second.first == state) return found->second.second;
+    }
+    if (state.first < trailer_size) damaged(path, "too short for a whole file");
+    Sha256 hash;
+    std::ifstream in(path, std::ios::binary);
+    std::uintmax_t left = state.first - trailer_size;
+    std::vector<char> buffer(1U << 20);
+    while (left > 0 && in) {
+        in.read(buffer.data(), static_cast<std::streamsize>(
+                                   std::min<std::uintmax_t>(left, buffer.size())));
+        hash.add(buffer.data(), static_cast<std::size_t>(in.gcount()));
+        left -= static_cast<std::uintmax_t>(in.gcount());
+    }
+    std::string trailer(trailer_size, '\0');
+    in.read(trailer.data(), static_cast<std::streamsize>(trailer_size));
+    if (!in) damaged(path, "cannot be read to its end");
+    const std::string label = trailer_label;
+    if (trailer.compare(0, label.size(), label) != 0) damaged(path, "cut short or overwritten");
+    const std::string said = trailer.substr(label.size(), 64);
+    if (said != hash.hex()) damaged(path, "its content does not have the hash that it ends with");
+    const std::lock_guard lock(guard);
+    known[path.string()] = {state, said};
+    return said;
 }
 
 struct Reader::Impl {
@@ -235,23 +405,22 @@ struct Reader::Impl {
     hid_t file = -1;
 
     [[noreturn]] void fail(const std::string& what) const {
-        throw IoError(
-            fmt::format("{}: {}; the file is damaged or not one of ours, run the job "
-                        "again with --fresh",
-                        path.string(), what));
+        damaged(path, what.c_str());
     }
 };
 
 Reader::Reader(std::filesystem::path path) : impl_(new Impl{std::move(path), -1}) {
     be_quiet();
+    try {
+        checked_hash(impl_->path);
+    } catch (...) {
+        delete impl_;
+        throw;
+    }
     impl_->file = H5Fopen(impl_->path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (impl_->file < 0) {
         const Impl kept = *impl_;
         delete impl_;
-        if (!std::filesystem::exists(kept.path)) {
-            throw IoError(fmt::format("{}: no such file; is this the folder of a finished run?",
-                                      kept.path.string()));
-        }
         kept.fail("cannot be opened as HDF5");
     }
 }
@@ -287,6 +456,48 @@ std::vector<T> Reader::read(const std::string& name) const {
     return out;
 }
 
+namespace {
+
+// Reads a selection of a dataset; -1 when that fails.
+template <class T>
+herr_t read_slab(hid_t file, const std::string& name, const std::vector<hsize_t>& from,
+                 const std::vector<hsize_t>& shape, std::vector<T>& out) {
+    const Id set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+    if (set < 0) return -1;
+    const Id space(H5Dget_space(set), H5Sclose);
+    if (H5Sselect_hyperslab(space, H5S_SELECT_SET, from.data(), nullptr, shape.data(), nullptr) <
+        0) {
+        return -1;
+    }
+    const Id memory(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+                    H5Sclose);
+    return H5Dread(set, type_of<T>(), memory, space, H5P_DEFAULT, out.data());
+}
+
+}  // namespace
+
+template <class T>
+std::vector<T> Reader::read(const std::string& name, std::uint64_t from,
+                            std::uint64_t count) const {
+    std::vector<T> out(count);
+    if (count > 0 && read_slab(impl_->file, name, {from}, {count}, out) < 0) {
+        impl_->fail("dataset " + name + " cannot be read");
+    }
+    return out;
+}
+
+template <class T>
+std::vector<T> Reader::read_window(const std::string& name,
+                                   const std::array<std::uint64_t, 2>& from,
+                                   const std::array<std::uint64_t, 2>& shape) const {
+    std::vector<T> out(shape[0] * shape[1]);
+    if (!out.empty() &&
+        read_slab(impl_->file, name, {from[0], from[1]}, {shape[0], shape[1]}, out) < 0) {
+        impl_->fail("dataset " + name + " cannot be read");
+    }
+    return out;
+}
+
 bool Reader::has_attribute(const std::string& object, const std::string& name) const {
     return H5Aexists_by_name(impl_->file, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
@@ -310,16 +521,25 @@ double Reader::number(const std::string& object, const std::string& name) const 
     return out;
 }
 
-template void Writer::write(const std::string&, const std::vector<float>&, Dims);
-template void Writer::write(const std::string&, const std::vector<double>&, Dims);
-template void Writer::write(const std::string&, const std::vector<std::int8_t>&, Dims);
-template void Writer::write(const std::string&, const std::vector<std::uint8_t>&, Dims);
-template void Writer::write(const std::string&, const std::vector<std::int32_t>&, Dims);
-template void Writer::write(const std::string&, const std::vector<std::int64_t>&, Dims);
-template std::vector<float> Reader::read(const std::string&) const;
-template std::vector<double> Reader::read(const std::string&) const;
-template std::vector<std::uint8_t> Reader::read(const std::string&) const;
-template std::vector<std::int32_t> Reader::read(const std::string&) const;
-template std::vector<std::int64_t> Reader::read(const std::string&) const;
+#define VFPLAN_OF_TYPE(T)                                                                      \
+    template void Writer::write(const std::string&, const std::vector<T>&, Dims, std::uint64_t); \
+    template void Writer::begin<T>(const std::string&, std::uint64_t, std::uint64_t);            \
+    template void Writer::append(const std::string&, const std::vector<T>&);                     \
+    template void Writer::write_virtual(const std::string&, const Dims&,                         \
+                                        const std::vector<Source>&, T);                          \
+    template std::vector<T> Reader::read(const std::string&) const;                              \
+    template std::vector<T> Reader::read(const std::string&, std::uint64_t, std::uint64_t)       \
+        const;                                                                                   \
+    template std::vector<T> Reader::read_window(const std::string&,                              \
+                                                const std::array<std::uint64_t, 2>&,             \
+                                                const std::array<std::uint64_t, 2>&) const;
+
+VFPLAN_OF_TYPE(float)
+VFPLAN_OF_TYPE(double)
+VFPLAN_OF_TYPE(std::int8_t)
+VFPLAN_OF_TYPE(std::uint8_t)
+VFPLAN_OF_TYPE(std::int32_t)
+VFPLAN_OF_TYPE(std::int64_t)
+#undef VFPLAN_OF_TYPE
 
 }  // namespace vfplan::h5

@@ -1,32 +1,58 @@
 // The door to HDF5. Files are written aside, closed, synced and renamed, so that a file under its
-// own name is whole; nothing of the machine or the hour goes into them.
+// own name is whole; nothing of the machine or the hour goes into them. Behind the HDF5 content
+// stands a line with its SHA-256, which other readers do not see and ours checks.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace vfplan::h5 {
 
 using Dims = std::vector<std::uint64_t>;
 
+// A dataset of another file as a part of a virtual one.
+struct Source {
+    std::string file;  // relative to the file with the virtual dataset
+    std::string dataset;
+    Dims offset;  // where in the virtual dataset it stands
+    Dims shape;
+};
+
 // Writes one file. Throws IoError, naming the file, on any failure; without close() nothing
-// appears under the final name. Not thread-safe.
+// appears under the final name. One file belongs to one thread; several may be written at once, and
+// compress at once.
 class Writer {
 public:
     explicit Writer(std::filesystem::path path);
     ~Writer();
+    Writer(Writer&& other) noexcept : impl_(std::exchange(other.impl_, nullptr)) {}
     Writer(const Writer&) = delete;
     Writer& operator=(const Writer&) = delete;
 
     void group(const std::string& name);
 
     // A dataset of float, double, int8..int64, uint8; large ones chunked and compressed.
+    // `chunk`: values in a chunk of one dimension, small where short stretches will be read.
     template <class T>
-    void write(const std::string& name, const std::vector<T>& data, Dims dims = {});
-    void write_strings(const std::string& name, const std::vector<std::string_view>& data);
+    void write(const std::string& name, const std::vector<T>& data, Dims dims = {},
+               std::uint64_t chunk = default_chunk);
+
+    // A dataset of one dimension that comes bit by bit: begin, append until `count` values are
+    // there, end. Several may be open at once.
+    template <class T>
+    void begin(const std::string& name, std::uint64_t count,
+               std::uint64_t chunk = default_chunk);
+    template <class T>
+    void append(const std::string& name, const std::vector<T>& data);
+
+    // A dataset that consists of others. What no source covers reads as `fill`.
+    template <class T>
+    void write_virtual(const std::string& name, const Dims& dims,
+                       const std::vector<Source>& sources, T fill);
 
     // `object` is a group or dataset, "/" for the file.
     void attribute(const std::string& object, const std::string& name, const std::string& value);
@@ -43,12 +69,15 @@ public:
 
     void close();
 
+    static constexpr std::uint64_t default_chunk = 1U << 18;  // 1-2 MB: deflate and readers like it
+
 private:
     struct Impl;
     Impl* impl_;
 };
 
-// Reads one file. Throws IoError when it cannot be opened, lacks something or is damaged.
+// Reads one file. Throws IoError when it cannot be opened, lacks something or is damaged; the
+// whole file's hash is checked first, once in a process for each state of a file. Thread-safe.
 class Reader {
 public:
     explicit Reader(std::filesystem::path path);
@@ -60,6 +89,13 @@ public:
     Dims dims(const std::string& name) const;
     template <class T>
     std::vector<T> read(const std::string& name) const;
+    // `count` values of a dataset of one dimension.
+    template <class T>
+    std::vector<T> read(const std::string& name, std::uint64_t from, std::uint64_t count) const;
+    // A rectangle of a dataset of two dimensions, row by row.
+    template <class T>
+    std::vector<T> read_window(const std::string& name, const std::array<std::uint64_t, 2>& from,
+                               const std::array<std::uint64_t, 2>& shape) const;
     bool has_attribute(const std::string& object, const std::string& name) const;
     std::string text(const std::string& object, const std::string& name) const;
     double number(const std::string& object, const std::string& name) const;
@@ -68,5 +104,9 @@ private:
     struct Impl;
     Impl* impl_;
 };
+
+// The hash that a whole file of ours ends with; throws IoError when there is none or the content
+// has another.
+std::string checked_hash(const std::filesystem::path& path);
 
 }  // namespace vfplan::h5

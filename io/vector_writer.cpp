@@ -124,12 +124,13 @@ void write_layers(Package& out, const CoverageTables& t, const Plan& plan) {
     out.field("length_m", OFTReal);
     out.field("status", OFTString);
     for (std::size_t p = 0; p < plan.pieces.size(); ++p) {
-        const Wall& wall = t.walls[static_cast<std::size_t>(t.pieces.wall[p])];
-        const Vec2d a = t.origin + wall.at(t.pieces.s0_m[p]);
-        const Vec2d b = t.origin + wall.at(t.pieces.s1_m[p]);
+        const Pieces::Place place = t.pieces.place(static_cast<std::int64_t>(p));
+        const Wall& wall = t.walls[static_cast<std::size_t>(place.wall)];
+        const Vec2d a = t.origin + wall.at(place.s0_m);
+        const Vec2d b = t.origin + wall.at(place.s1_m);
         out.feature({a, b}, [&](OGRFeatureH f) {
             OGR_F_SetFieldInteger(f, 0, static_cast<int>(p));
-            OGR_F_SetFieldDouble(f, 1, t.pieces.length_m(static_cast<std::int64_t>(p)));
+            OGR_F_SetFieldDouble(f, 1, place.s1_m - place.s0_m);
             OGR_F_SetFieldString(f, 2, std::string(name_of(plan.pieces[p])).c_str());
         });
     }

@@ -107,7 +107,7 @@ Raster<std::uint8_t> cells_near_walls(const Grid& grid, const std::vector<Wall>&
 }
 
 Raster<std::uint8_t> closed_links(const Grid& grid, const Raster<std::uint8_t>& free,
-                                  const std::vector<Wall>& walls) {
+                                  const std::vector<Wall>& walls, const Window& owners) {
     Raster<std::uint8_t> closed(free.size(), 0);
     for (const Wall& wall : walls) {
         const Vec2d a = wall.a - grid.origin;
@@ -115,7 +115,8 @@ Raster<std::uint8_t> closed_links(const Grid& grid, const Raster<std::uint8_t>& 
         const double c = grid.cell_m;
         const std::int32_t row_from = cell_index(std::min(a.y(), b.y()) - 1.5 * c, c, grid.ny);
         const std::int32_t row_to = cell_index(std::max(a.y(), b.y()) + 1.5 * c, c, grid.ny);
-        for (std::int32_t iy = row_from; iy <= row_to; ++iy) {
+        for (std::int32_t iy = std::max(row_from, owners.y_begin);
+             iy <= std::min(row_to, owners.y_end - 1); ++iy) {
             // The columns that the wall passes within 1.5 cells of this row.
             const double lo = c * (iy - 1);
             const double hi = c * (iy + 2);
@@ -131,7 +132,8 @@ Raster<std::uint8_t> closed_links(const Grid& grid, const Raster<std::uint8_t>& 
             const double x1 = a.x() + t1 * (b.x() - a.x());
             const std::int32_t col_from = cell_index(std::min(x0, x1) - 1.5 * c, c, grid.nx);
             const std::int32_t col_to = cell_index(std::max(x0, x1) + 1.5 * c, c, grid.nx);
-            for (std::int32_t ix = col_from; ix <= col_to; ++ix) {
+            for (std::int32_t ix = std::max(col_from, owners.x_begin);
+                 ix <= std::min(col_to, owners.x_end - 1); ++ix) {
                 const auto here = static_cast<std::size_t>(grid.id(ix, iy));
                 if (free[here] == 0) continue;
                 for (unsigned k = 0; k < 4; ++k) {  // the other four are their neighbours'

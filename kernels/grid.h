@@ -1,6 +1,7 @@
 // The regular grid of cells over a site, and rasters on it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -36,7 +37,28 @@ struct Window {
     std::int32_t y_begin = 0;
     std::int32_t x_end = 0;
     std::int32_t y_end = 0;
+
+    bool contains(std::int32_t x, std::int32_t y) const {
+        return x >= x_begin && x < x_end && y >= y_begin && y < y_end;
+    }
+    std::int64_t size() const {
+        return static_cast<std::int64_t>(x_end - x_begin) * (y_end - y_begin);
+    }
+    // This much more on every side, as far as the grid goes.
+    Window grown(std::int32_t cells, const Grid& grid) const {
+        return {std::max(0, x_begin - cells), std::max(0, y_begin - cells),
+                std::min(grid.nx, x_end + cells), std::min(grid.ny, y_end + cells)};
+    }
 };
+
+// The cells of a window as a grid of their own. Rows and columns keep their order, so what is
+// decided by the order of cells is decided alike.
+inline Grid part_of(const Grid& grid, const Window& w) {
+    return {{grid.origin.x() + grid.cell_m * w.x_begin, grid.origin.y() + grid.cell_m * w.y_begin},
+            grid.cell_m,
+            w.x_end - w.x_begin,
+            w.y_end - w.y_begin};
+}
 
 // One value per cell, in the order of Grid::id.
 template <class T>

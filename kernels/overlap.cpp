@@ -59,6 +59,33 @@ double overlap(OverlapRatio ratio, const Pieces& pieces, const CoverageRow& a,
                    seen_jointly(pieces, a.data(), a_end, b.data(), b_end));
 }
 
+OverlapRow overlap_row(std::vector<SeenLength> seen) {
+    OverlapRow row{std::move(seen), {}};
+    for (const SeenLength& s : row.seen) {
+        row.total.length_m += s.length_m;
+        row.total.angle_rad += static_cast<double>(s.angle_rad);
+    }
+    return row;
+}
+
+double overlap(OverlapRatio ratio, const OverlapRow& a, const OverlapRow& b) {
+    SeenJointly joint;
+    for (auto i = a.seen.begin(), k = b.seen.begin(); i != a.seen.end() && k != b.seen.end();) {
+        if (i->piece < k->piece) {
+            ++i;
+        } else if (k->piece < i->piece) {
+            ++k;
+        } else {
+            joint.length_m += i->length_m;
+            joint.angle_a_rad += static_cast<double>(i->angle_rad);
+            joint.angle_b_rad += static_cast<double>(k->angle_rad);
+            ++i;
+            ++k;
+        }
+    }
+    return overlap(ratio, a.total, b.total, joint);
+}
+
 void overlaps_of_row(const Pieces& pieces, const CoverageTable& table, const InvertedIndex& index,
                      const std::vector<SeenTotal>& totals, OverlapRatio ratio, double threshold,
                      std::int32_t row, OverlapScratch& scratch, std::vector<OverlapPair>& out) {

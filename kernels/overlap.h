@@ -42,6 +42,21 @@ double overlap(OverlapRatio ratio, const SeenTotal& a, const SeenTotal& b,
 double overlap(OverlapRatio ratio, const Pieces& pieces, const CoverageRow& a,
                const CoverageRow& b);
 
+// A row that brings the lengths of its pieces along, for places where the table of all pieces is not
+// at hand.
+struct SeenLength {
+    std::int32_t piece = 0;
+    float angle_rad = 0;
+    double length_m = 0;
+};
+struct OverlapRow {
+    std::vector<SeenLength> seen;  // ascending
+    SeenTotal total;
+};
+OverlapRow overlap_row(std::vector<SeenLength> seen);
+// The same bits as from two rows and their pieces.
+double overlap(OverlapRatio ratio, const OverlapRow& a, const OverlapRow& b);
+
 // A pair of candidates that overlap at all. from < to.
 struct OverlapPair {
     std::int32_t from = 0;

@@ -1,26 +1,75 @@
 #include "kernels/ridges.h"
 
-#include <bit>
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "kernels/index.h"
-#include "kernels/skeleton.h"
+#include "kernels/free_cells.h"
 
 namespace vfplan {
 namespace {
 
-// Calls f(neighbour cell) for the skeleton neighbours of a cell.
-template <class F>
-void each_neighbour(const Grid& grid, const Raster<std::uint8_t>& skeleton, std::int64_t cell,
-                    F&& f) {
-    const unsigned bits = neighbourhood(grid, skeleton, cell);
-    for (std::size_t k = 0; k < 8; ++k) {
-        if ((bits >> k & 1U) == 0) continue;
-        f(grid.id(grid.ix(cell) + around_dx[k], grid.iy(cell) + around_dy[k]));
+// Skeleton cells by their index, with their neighbours.
+class Lines {
+public:
+    Lines(const Grid& grid, const SkeletonCells& skeleton)
+        : grid_(grid), cell_(skeleton.cell), below_(cell_.size()), above_(cell_.size()) {
+        // The first skeleton cell at or behind the south-west and north-west neighbour.
+        std::size_t low = 0;
+        std::size_t high = 0;
+        for (std::size_t i = 0; i < cell_.size(); ++i) {
+            while (low < cell_.size() && cell_[low] < cell_[i] - grid.nx - 1) ++low;
+            while (high < cell_.size() && cell_[high] < cell_[i] + grid.nx - 1) ++high;
+            below_[i] = static_cast<std::int32_t>(low);
+            above_[i] = static_cast<std::int32_t>(high);
+        }
     }
-}
+
+    std::size_t size() const { return cell_.size(); }
+    std::int64_t cell(std::size_t i) const { return cell_[i]; }
+
+    // Calls f(neighbour's index), counter-clockwise from east.
+    template <class F>
+    void each_neighbour(std::size_t i, F&& f) const {
+        std::array<std::int64_t, 8> found;
+        found.fill(-1);
+        const std::int32_t x = grid_.ix(cell_[i]);
+        const auto look = [&](std::size_t from, std::int64_t row_step) {
+            for (std::size_t j = from; j < cell_.size(); ++j) {
+                const std::int64_t off = cell_[j] - cell_[i] - row_step;
+                if (off > 1) break;
+                const bool wraps = (off < 0 && x == 0) || (off > 0 && x + 1 == grid_.nx);
+                if (off < -1 || wraps || j == i) continue;
+                for (std::size_t k = 0; k < 8; ++k) {
+                    if (around_dx[k] == off && around_dy[k] * std::int64_t{grid_.nx} == row_step) {
+                        found[k] = static_cast<std::int64_t>(j);
+                    }
+                }
+            }
+        };
+        look(at(below_[i]), -grid_.nx);
+        look(i > 0 ? i - 1 : 0, 0);
+        look(at(above_[i]), grid_.nx);
+        for (const std::int64_t j : found) {
+            if (j >= 0) f(at(j));
+        }
+    }
+
+    int neighbours(std::size_t i) const {
+        int n = 0;
+        each_neighbour(i, [&](std::size_t) { ++n; });
+        return n;
+    }
+
+private:
+    const Grid& grid_;
+    const std::vector<std::int64_t>& cell_;
+    std::vector<std::int32_t> below_;
+    std::vector<std::int32_t> above_;
+};
 
 std::int64_t nearest_to_centroid(const Grid& grid, const std::vector<std::int64_t>& cells) {
     double sx = 0;
@@ -46,108 +95,120 @@ std::int64_t nearest_to_centroid(const Grid& grid, const std::vector<std::int64_
 
 }  // namespace
 
-RidgeGraph ridge_graph(const Grid& grid, const Raster<std::uint8_t>& skeleton) {
-    constexpr std::int32_t no_skeleton = -3;
+RidgeGraph ridge_graph(const Grid& grid, const SkeletonCells& skeleton) {
     constexpr std::int32_t line = -2;
     constexpr std::int32_t line_done = -4;
     constexpr std::int32_t joint_open = -1;
     RidgeGraph out;
-    Raster<std::int32_t> label(skeleton.size(), no_skeleton);
-    std::vector<std::int64_t> cells;
-    for (std::int64_t c = 0; c < grid.size(); ++c) {
-        if (skeleton[at(c)] == 0) continue;
-        cells.push_back(c);
-        const bool branches = std::popcount(neighbourhood(grid, skeleton, c)) >= 3;
-        label[at(c)] = branches ? joint_open : line;
+    const Lines lines(grid, skeleton);
+    std::vector<std::int32_t> label(lines.size());
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        label[i] = lines.neighbours(i) >= 3 ? joint_open : line;
     }
 
-    for (const std::int64_t seed : cells) {
-        if (label[at(seed)] != joint_open) continue;
+    for (std::size_t seed = 0; seed < lines.size(); ++seed) {
+        if (label[seed] != joint_open) continue;
         const auto id = static_cast<std::int32_t>(out.joints.size());
-        std::vector<std::int64_t> cluster = {seed};
-        label[at(seed)] = id;
+        std::vector<std::size_t> cluster = {seed};
+        std::vector<std::int64_t> cells = {lines.cell(seed)};
+        label[seed] = id;
         for (std::size_t i = 0; i < cluster.size(); ++i) {
-            each_neighbour(grid, skeleton, cluster[i], [&](std::int64_t n) {
-                if (label[at(n)] != joint_open) return;
-                label[at(n)] = id;
+            lines.each_neighbour(cluster[i], [&](std::size_t n) {
+                if (label[n] != joint_open) return;
+                label[n] = id;
                 cluster.push_back(n);
+                cells.push_back(lines.cell(n));
             });
         }
-        out.joints.push_back(nearest_to_centroid(grid, cluster));
+        out.joints.push_back(nearest_to_centroid(grid, cells));
     }
 
-    // Walks along line cells from `from`, appending, until a joint or an end; tells the joint.
-    const auto follow = [&](std::int64_t from, Ridge& ridge) {
-        std::int64_t cell = from;
-        while (true) {
-            label[at(cell)] = line_done;
-            ridge.cells.push_back(cell);
-            std::int64_t next = -1;
-            each_neighbour(grid, skeleton, cell, [&](std::int64_t n) {
-                if (next < 0 && label[at(n)] == line) next = n;
+    // Walks along line cells from `from`, appending, until a joint or an end; tells the last one.
+    constexpr std::size_t none = static_cast<std::size_t>(-1);
+    const auto follow = [&](std::size_t from, Ridge& ridge) {
+        std::size_t last = from;
+        for (std::size_t i = from; i != none;) {
+            label[i] = line_done;
+            ridge.cells.push_back(lines.cell(i));
+            last = i;
+            std::size_t next = none;
+            lines.each_neighbour(i, [&](std::size_t n) {
+                if (next == none && label[n] == line) next = n;
             });
-            if (next < 0) return;
-            cell = next;
+            i = next;
         }
+        return last;
     };
-    const auto joints_at = [&](std::int64_t cell) {
+    const auto joints_at = [&](std::size_t i) {
         std::vector<std::int32_t> found;
-        each_neighbour(grid, skeleton, cell, [&](std::int64_t n) {
-            if (label[at(n)] >= 0) found.push_back(label[at(n)]);
+        lines.each_neighbour(i, [&](std::size_t n) {
+            if (label[n] >= 0) found.push_back(label[n]);
         });
         return found;
     };
-    const auto line_neighbours = [&](std::int64_t cell) {
+    const auto line_neighbours = [&](std::size_t i) {
         int count = 0;
-        each_neighbour(grid, skeleton, cell, [&](std::int64_t n) {
-            if (label[at(n)] == line || label[at(n)] == line_done) ++count;
+        lines.each_neighbour(i, [&](std::size_t n) {
+            if (label[n] == line || label[n] == line_done) ++count;
         });
         return count;
     };
     for (const bool rings : {false, true}) {
-        for (const std::int64_t seed : cells) {
-            if (label[at(seed)] != line) continue;
+        for (std::size_t seed = 0; seed < lines.size(); ++seed) {
+            if (label[seed] != line) continue;
             if (!rings && line_neighbours(seed) > 1) continue;
             Ridge ridge;
-            follow(seed, ridge);
+            const std::size_t last = follow(seed, ridge);
             ridge.ring = rings;
             if (!rings) {
-                const auto front = joints_at(ridge.cells.front());
-                const auto back = joints_at(ridge.cells.back());
+                const auto front = joints_at(seed);
+                const auto back = joints_at(last);
+                if (!front.empty()) ridge.joint[0] = front[0];
                 if (ridge.cells.size() == 1) {
-                    if (!front.empty()) ridge.joint[0] = front[0];
                     if (front.size() > 1) ridge.joint[1] = front[1];
-                } else {
-                    if (!front.empty()) ridge.joint[0] = front[0];
-                    if (!back.empty()) ridge.joint[1] = back[0];
+                } else if (!back.empty()) {
+                    ridge.joint[1] = back[0];
                 }
             }
+            ridge.cells.shrink_to_fit();
             out.ridges.push_back(std::move(ridge));
         }
     }
     return out;
 }
 
-std::int64_t prune_spurs(const Grid& grid, const DistanceField& distance,
-                         Raster<std::uint8_t>& skeleton) {
+std::int64_t prune_spurs(const Grid& grid, SkeletonCells& skeleton) {
+    const auto index_of = [&](std::int64_t cell) {
+        const auto found = std::lower_bound(skeleton.cell.begin(), skeleton.cell.end(), cell);
+        return at(found - skeleton.cell.begin());
+    };
     std::int64_t pruned = 0;
     while (true) {
         const RidgeGraph graph = ridge_graph(grid, skeleton);
+        std::vector<std::uint8_t> gone(skeleton.cell.size(), 0);
         std::int64_t now = 0;
         for (const Ridge& ridge : graph.ridges) {
             const bool spur = (ridge.joint[0] < 0) != (ridge.joint[1] < 0);
             if (!spur) continue;
             const std::int32_t joint = std::max(ridge.joint[0], ridge.joint[1]);
-            const std::int64_t joint_cell = graph.joints[at(joint)];
-            const double clearance =
-                std::sqrt(static_cast<double>(distance.squared[at(joint_cell)]));
+            const double clearance = std::sqrt(
+                static_cast<double>(skeleton.squared[index_of(graph.joints[at(joint)])]));
             const double length = arc_cells(grid, ridge.cells, 0, ridge.cells.size() - 1) + 1;
             if (length >= clearance) continue;
-            for (const std::int64_t c : ridge.cells) skeleton[at(c)] = 0;
+            for (const std::int64_t c : ridge.cells) gone[index_of(c)] = 1;
             ++now;
         }
         if (now == 0) return pruned;
         pruned += now;
+        std::size_t left = 0;
+        for (std::size_t i = 0; i < gone.size(); ++i) {
+            if (gone[i] != 0) continue;
+            skeleton.cell[left] = skeleton.cell[i];
+            skeleton.squared[left] = skeleton.squared[i];
+            ++left;
+        }
+        skeleton.cell.resize(left);
+        skeleton.squared.resize(left);
     }
 }
 

@@ -4,10 +4,16 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernels/distance.h"
 #include "kernels/grid.h"
 
 namespace vfplan {
+
+// The cells of a skeleton, ascending, with the squared distance in cells of each to the domain's
+// edge. A county's skeleton fits in memory where its grid does not.
+struct SkeletonCells {
+    std::vector<std::int64_t> cell;
+    std::vector<std::int32_t> squared;
+};
 
 // A skeleton line without branches. `cells` run from one end to the other.
 struct Ridge {
@@ -24,12 +30,11 @@ struct RidgeGraph {
 };
 
 // Takes a skeleton apart. Time O(cells). Thread-safe.
-RidgeGraph ridge_graph(const Grid& grid, const Raster<std::uint8_t>& skeleton);
+RidgeGraph ridge_graph(const Grid& grid, const SkeletonCells& skeleton);
 
 // Removes spurs: ridges with one free end that are shorter than the clearance (distance to the
 // domain's edge) at their joint; repeated until none is left. Returns the number of spurs.
-std::int64_t prune_spurs(const Grid& grid, const DistanceField& distance,
-                         Raster<std::uint8_t>& skeleton);
+std::int64_t prune_spurs(const Grid& grid, SkeletonCells& skeleton);
 
 // Length in cells along cells[from..to], steps of 1 and sqrt(2).
 double arc_cells(const Grid& grid, const std::vector<std::int64_t>& cells, std::size_t from,

@@ -1,0 +1,19 @@
+// The parts of the overlap graph, found tile by tile.
+#pragma once
+
+#include "engine/candidate_tiles.h"
+#include "engine/work.h"
+
+namespace vfplan {
+
+// work/parts-ROUND-*.h5: for each candidate of a list the part that it belongs to, numbered by their
+// first candidate. Returns how many there are.
+std::int64_t make_parts(const Work& work, std::int64_t round);
+
+// The part of every candidate of the list.
+std::vector<std::int32_t> read_parts(const Work& work, std::int64_t round);
+// Of those numbered [from, from + count).
+std::vector<std::int32_t> read_parts(const Work& work, std::int64_t round, std::int64_t from,
+                                     std::int64_t count);
+
+}  // namespace vfplan
