@@ -181,7 +181,11 @@ std::vector<std::vector<std::uint8_t>> standable_bits(const Config& config, cons
 
 void make_site_store(const Config& config, const std::string& key, const Threads& threads,
                      Progress& progress, const std::filesystem::path& path) {
-    SiteResult read = read_site(config.site.input, site_options(config));
+    SiteOptions options = site_options(config);
+    options.for_each = [&](std::int64_t n, const SiteOptions::Body& body) {
+        threads.for_each(n, 16, body);
+    };
+    SiteResult read = read_site(config.site.input, options);
     for (const std::string& w : read.warnings) progress.note("warning: " + w);
     const Site& site = read.site;
     const Layout layout = layout_of(config, site);

@@ -199,22 +199,16 @@ Geometry rounded(const Polygon& p, double snap_m) {
     return g;
 }
 
-// Groups of polygons whose boxes come within `near_m` of each other, each ascending.
-std::vector<std::vector<std::size_t>> neighbours(const std::vector<Polygon>& polygons,
-                                                 double near_m) {
-    const std::vector<Box> boxes = [&] {
-        std::vector<Box> out(polygons.size());
-        for (std::size_t i = 0; i < polygons.size(); ++i) {
-            for (const Vec2d& v : polygons[i].outer) out[i].add(v);
-        }
-        return out;
-    }();
-    std::vector<std::size_t> by_x(polygons.size());
+}  // namespace
+
+std::vector<std::vector<std::size_t>> neighbour_groups(const std::vector<Box>& boxes,
+                                                       double near_m) {
+    std::vector<std::size_t> by_x(boxes.size());
     std::iota(by_x.begin(), by_x.end(), std::size_t{0});
     std::sort(by_x.begin(), by_x.end(), [&](std::size_t a, std::size_t b) {
         return std::pair(boxes[a].min.x(), a) < std::pair(boxes[b].min.x(), b);
     });
-    std::vector<std::size_t> leader(polygons.size());
+    std::vector<std::size_t> leader(boxes.size());
     std::iota(leader.begin(), leader.end(), std::size_t{0});
     const auto find = [&](std::size_t i) {
         while (leader[i] != i) i = leader[i] = leader[leader[i]];
@@ -222,7 +216,7 @@ std::vector<std::vector<std::size_t>> neighbours(const std::vector<Polygon>& pol
     };
     std::vector<std::size_t> open;  // boxes that may still reach the sweep's place
     for (const std::size_t i : by_x) {
-        if (polygons[i].outer.empty()) continue;
+        if (boxes[i].empty()) continue;
         std::erase_if(open,
                       [&](std::size_t k) { return boxes[k].max.x() + near_m < boxes[i].min.x(); });
         for (const std::size_t k : open) {
@@ -236,19 +230,25 @@ std::vector<std::vector<std::size_t>> neighbours(const std::vector<Polygon>& pol
         }
         open.push_back(i);
     }
-    std::vector<std::vector<std::size_t>> groups(polygons.size());
-    for (std::size_t i = 0; i < polygons.size(); ++i) groups[find(i)].push_back(i);
+    std::vector<std::vector<std::size_t>> groups(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) groups[find(i)].push_back(i);
     std::erase_if(groups, [](const std::vector<std::size_t>& g) { return g.empty(); });
     return groups;
 }
 
-}  // namespace
+Box bounds(const Line& points) {
+    Box box;
+    for (const Vec2d& v : points) box.add(v);
+    return box;
+}
 
 // Group by group: one union of everything would node all that is there again and again.
 std::vector<Polygon> unite(const std::vector<Polygon>& polygons, double snap_m) {
     if (polygons.empty()) return {};
     std::vector<Geometry> parts;
-    for (const std::vector<std::size_t>& group : neighbours(polygons, 4 * snap_m)) {
+    std::vector<Box> boxes;
+    for (const Polygon& p : polygons) boxes.push_back(bounds(p.outer));
+    for (const std::vector<std::size_t>& group : neighbour_groups(boxes, 4 * snap_m)) {
         if (group.size() == 1) {
             if (Geometry alone = rounded(polygons[group.front()], snap_m)) {
                 parts.push_back(std::move(alone));

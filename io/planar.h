@@ -18,6 +18,12 @@ std::string invalid_reason(const Polygon& polygon);
 // The valid polygons that an invalid one covers.
 std::vector<Polygon> repaired(const Polygon& polygon);
 
+// Groups of boxes that come within `near_m` of each other, directly or over others, each ascending.
+// What is further apart than a few snaps meets in no overlay, so groups may be worked on one by one.
+std::vector<std::vector<std::size_t>> neighbour_groups(const std::vector<Box>& boxes,
+                                                       double near_m);
+Box bounds(const Line& points);
+
 std::vector<Polygon> unite(const std::vector<Polygon>& polygons, double snap_m);
 std::vector<Polygon> subtract(const std::vector<Polygon>& from, const std::vector<Polygon>& what,
                               double snap_m);

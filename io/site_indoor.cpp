@@ -142,6 +142,7 @@ void build_indoor(const Sorted& in, const SiteOptions& options, Site& site) {
         box.add(wall.b);
         site.walls.push_back(wall);
     }
+    sort_walls(site.walls);
     site.extent = box;
     for (const Polygon& p : free) {
         site.free_region.push_back(p.outer);

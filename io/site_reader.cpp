@@ -29,15 +29,28 @@ void crop(FeatureSet& set, const std::vector<double>& crop_m, CleaningCounts& co
 
 void settle_invalid(FeatureSet& set, const SiteOptions& options, const std::string& name,
                     CleaningCounts& counts) {
-    for (Feature& f : set.features) {
+    // Asking takes long, and features do not mind each other.
+    std::vector<std::vector<std::string>> reasons(set.features.size());
+    options.for_each(static_cast<std::int64_t>(reasons.size()),
+                     [&](std::int64_t from, std::int64_t to) {
+                         for (auto i = static_cast<std::size_t>(from);
+                              i < static_cast<std::size_t>(to); ++i) {
+                             for (const Polygon& p : set.features[i].polygons) {
+                                 reasons[i].push_back(planar::invalid_reason(p));
+                             }
+                         }
+                     });
+    for (std::size_t i = 0; i < set.features.size(); ++i) {
+        Feature& f = set.features[i];
         if (f.role == Role::drawing || f.role == Role::opening) continue;
         std::vector<Polygon> valid;
-        for (Polygon& p : f.polygons) {
+        for (std::size_t k = 0; k < f.polygons.size(); ++k) {
+            Polygon& p = f.polygons[k];
             if (p.outer.size() < 3) {  // a point or a line drawn as a polygon: no area to lose
                 ++counts.dropped_invalid;
                 continue;
             }
-            const std::string reason = planar::invalid_reason(p);
+            const std::string& reason = reasons[i][k];
             if (reason.empty()) {
                 valid.push_back(std::move(p));
                 continue;
@@ -61,12 +74,12 @@ void settle_invalid(FeatureSet& set, const SiteOptions& options, const std::stri
     }
 }
 
-std::string problem_without_walls(const FeatureSet& set, const SiteOptions& options) {
-    if (set.features.empty() && !options.crop_m.empty()) {
+std::string problem_without_walls(bool no_features, const SiteOptions& options) {
+    if (no_features && !options.crop_m.empty()) {
         return "no feature has its centre in site.crop_m; check the crop, it is in the file's "
                "metres";
     }
-    if (set.features.empty()) {
+    if (no_features) {
         return options.kind == SiteKind::outdoor
                    ? "no building polygons in it; check the file and site.layer"
                    : "no walls, rooms or outlines in it; check the file and site.layer";
@@ -110,8 +123,9 @@ SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::str
         box.add(b.min);
         box.add(b.max);
     }
-    if (set.features.empty()) {
-        throw InputError(fmt::format("{}: {}", name, problem_without_walls(set, options)));
+    const bool no_features = set.features.empty();
+    if (no_features) {
+        throw InputError(fmt::format("{}: {}", name, problem_without_walls(no_features, options)));
     }
     settle_invalid(set, options, name, site.counts);
     site.origin = {std::floor(box.min.x()), std::floor(box.min.y())};
@@ -123,6 +137,7 @@ SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::str
         for (Polygon& p : f.polygons) sorted.polygons[role].push_back(std::move(p));
         for (Line& line : f.lines) sorted.lines[role].push_back(std::move(line));
     }
+    set.features = {};  // a county's are hundreds of megabytes
     if (options.kind == SiteKind::outdoor) {
         build_outdoor(sorted, options, site);
     } else {
@@ -130,7 +145,7 @@ SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::str
     }
     site.counts.walls = static_cast<std::int64_t>(site.walls.size());
     if (site.walls.empty()) {
-        throw InputError(fmt::format("{}: {}", name, problem_without_walls(set, options)));
+        throw InputError(fmt::format("{}: {}", name, problem_without_walls(no_features, options)));
     }
     if (site.free_region.empty()) {
         throw InputError(

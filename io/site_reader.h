@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,10 @@ struct SiteOptions {
     WindowMode windows = WindowMode::wall;
     InvalidPolygons invalid = InvalidPolygons::error;
     double stand_radius_m = 0.3;  // indoors: a space is a room when such a circle fits in
+    // Calls body(from, to) for disjoint parts of [0, n), perhaps several at once.
+    using Body = std::function<void(std::int64_t, std::int64_t)>;
+    std::function<void(std::int64_t n, const Body& body)> for_each =
+        [](std::int64_t n, const Body& body) { body(0, n); };
 };
 
 struct SiteResult {
@@ -68,8 +73,11 @@ struct Blocking {
 
 // Nodes the lines, gives every stretch the class of the line it lies on (wall before window before
 // door before obstacle), joins collinear neighbours of one class, counts what happened.
-// Free sides are left at true.
+// Free sides are left at true. Walls come in no order that means anything (see sort_walls()).
 std::vector<Wall> walls_from_lines(const Blocking& blocking, double snap_m, CleaningCounts& counts);
+
+// By square of 256 m, then by their ends: walls near each other have near numbers.
+void sort_walls(std::vector<Wall>& walls);
 
 void build_outdoor(const Sorted& in, const SiteOptions& options, Site& site);
 void build_indoor(const Sorted& in, const SiteOptions& options, Site& site);

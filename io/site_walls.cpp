@@ -129,11 +129,16 @@ std::vector<Wall> walls_from_lines(const Blocking& blocking, double snap_m,
         wall.cls = e.cls;
         walls.push_back(wall);
     }
-    std::sort(walls.begin(), walls.end(), [](const Wall& p, const Wall& q) {
-        return std::tuple(p.a.x(), p.a.y(), p.b.x(), p.b.y()) <
-               std::tuple(q.a.x(), q.a.y(), q.b.x(), q.b.y());
-    });
     return walls;
+}
+
+void sort_walls(std::vector<Wall>& walls) {
+    constexpr double side_m = 256;
+    const auto square = [](double v) { return std::floor(v / side_m); };
+    std::sort(walls.begin(), walls.end(), [&](const Wall& p, const Wall& q) {
+        return std::tuple(square(p.a.y()), square(p.a.x()), p.a.x(), p.a.y(), p.b.x(), p.b.y()) <
+               std::tuple(square(q.a.y()), square(q.a.x()), q.a.x(), q.a.y(), q.b.x(), q.b.y());
+    });
 }
 
 }  // namespace vfplan

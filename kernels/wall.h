@@ -44,6 +44,22 @@ struct CleaningCounts {
     std::int64_t merged = 0;         // edges joined to a collinear neighbour
     std::int64_t inside_solids = 0;  // edges dropped because both sides are solid
     std::int64_t walls = 0;          // walls in the end
+
+    CleaningCounts& operator+=(const CleaningCounts& o) {
+        features += o.features;
+        ignored += o.ignored;
+        repaired += o.repaired;
+        dropped_invalid += o.dropped_invalid;
+        outside_crop += o.outside_crop;
+        edges_in += o.edges_in;
+        zero_length += o.zero_length;
+        duplicates += o.duplicates;
+        split += o.split;
+        merged += o.merged;
+        inside_solids += o.inside_solids;
+        walls += o.walls;
+        return *this;
+    }
 };
 
 // A cleaned site. Coordinates are metres in the site's frame: input coordinates minus `origin`
