@@ -415,9 +415,9 @@ std::string Ranks::binding_warning() const {
     const int share = number_in("SLURM_CPUS_PER_TASK", node / here);
     if (mine >= share) return "";
     return fmt::format(
-        "mpirun binds each process to {} of {} processors, for {} processes on this machine; start "
+        "mpirun binds each of {} processes on this machine to {} of {} processors; start "
         "it with --bind-to none, or --map-by slot:PE={}",
-        mine, node, here, share);
+        here, mine, node, share);
 }
 
 }  // namespace vfplan

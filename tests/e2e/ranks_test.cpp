@@ -130,7 +130,7 @@ TEST(RanksUnderMpirun, KilledRankEndsTheJob) {
 TEST(RanksUnderMpirun, WholeRunHasTheSameResult) {
     VFPLAN_NEED_MPI();
     const Scratch scratch;
-    const std::string site = generated(scratch, "city", {"--size-km", "0.3"});
+    const std::string site = generated(scratch, "city", {"--size-km", "0.5"});
     const std::string job = scratch.write("job.toml", "preset = \"outdoor\"\n[site]\ninput = \"" +
                                                           site + "\"\n[field]\ncell_m = 2\n");
     vfplan_expect(0, {"run", job, "--out", scratch / "one"});
