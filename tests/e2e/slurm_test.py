@@ -103,7 +103,7 @@ class Job:
                 return True
             if (self.out / "shards").is_dir():
                 return self.shards() > more_than
-            return self.log.exists() and self.log.read_text().count("\nsite  ") == start
+            return self.log.exists() and self.log.read_text().count(" features, ") >= start
         until(at_work, f"more than {more_than} shards", self)
         check(self.state() == "RUNNING", f"ended before it could be disturbed\n{self.text()}")
 
