@@ -12,6 +12,7 @@
 #include "engine/pipeline.h"
 #include "engine/ranks.h"
 #include "engine/stop.h"
+#include "engine/submit.h"
 #include "io/files.h"
 #include "kernels/error.h"
 #include "kernels/isa.h"
@@ -61,26 +62,32 @@ void add_common(CLI::App& app, Shared& s) {
     app.add_flag("-q,--quiet", s.quiet, "No progress, no summary");
 }
 
-void add_job(CLI::App& app, Shared& s) {
+void add_job_and_out(CLI::App& app, Shared& s) {
     app.add_option("JOB", s.job, "Job file (TOML); configs/ has examples")->required();
     app.add_option("--out", s.out, "Run directory; default: the job file's name without .toml");
     add_sets(app, s, "Replaces a parameter of the job file; may be repeated");
+}
+
+void add_job(CLI::App& app, Shared& s) {
+    add_job_and_out(app, s);
     app.add_flag("--fresh", s.fresh, "Make everything again; default: go on where a run stopped");
     app.add_flag("--dry-run", s.dry_run,
                  "Check the job and the site, print cells, memory and disk");
     add_common(app, s);
 }
 
+std::filesystem::path out_of(const Shared& s) {
+    if (!s.out.empty()) return s.out;
+    std::filesystem::path out = std::filesystem::path(s.job).stem();
+    if (out.extension().empty() && std::filesystem::path(s.job) == out) out += ".run";
+    return out;
+}
+
 int run_or_precompute(const Shared& s, bool plan, const Ranks& ranks) {
     Progress progress(s.quiet || !ranks.leader());
     const Config config = read_config(s.job, s.sets);
     JobOptions options;
-    options.out =
-        s.out.empty() ? std::filesystem::path(s.job).stem() : std::filesystem::path(s.out);
-    if (s.out.empty() && options.out.extension().empty() &&
-        std::filesystem::path(s.job) == options.out) {
-        options.out += ".run";
-    }
+    options.out = out_of(s);
     options.threads = s.threads;
     options.fresh = s.fresh;
     options.dry_run = s.dry_run;
@@ -107,6 +114,32 @@ int generate(const GenerateOptions& options, const std::string& out) {
     }
     write_text(file, report.geojson);
     fmt::print("{}", report.summary);
+    return 0;
+}
+
+void add_submit(CLI::App& app, Shared& s, SubmitOptions& o, bool& print) {
+    add_job_and_out(app, s);
+    app.add_option("--nodes", o.nodes, "Machines")->check(CLI::Range(1, 100000));
+    app.add_option("--ranks-per-node", o.ranks_per_node,
+                   "Processes on each; default: one per socket that Slurm knows of")
+        ->check(CLI::Range(1, 1024));
+    app.add_option("--threads", s.threads,
+                   "Threads of each process; default: all processors of nodes that are taken whole")
+        ->check(CLI::Range(1, 4096));
+    app.add_option("--time", o.time, "Time limit as Slurm writes it: 30, 12:00:00, 2-0");
+    app.add_option("--account", o.account, "Slurm account");
+    app.add_option("--partition", o.partition, "Slurm partition");
+    app.add_flag("--print", print, "Print the batch script, submit nothing");
+}
+
+int submit_job(const Shared& s, SubmitOptions o, bool print) {
+    o.job = s.job;
+    o.out = out_of(s);
+    o.sets = s.sets;
+    o.threads = s.threads;
+    o.program = std::filesystem::read_symlink("/proc/self/exe");
+    o.folder = std::filesystem::current_path();
+    fmt::print("{}", submit(o, print));
     return 0;
 }
 
@@ -157,6 +190,13 @@ int dispatch(int argc, char** argv, const Ranks& ranks) {
     make->add_option("--size-km", site.size_km, "city: side of the square")->capture_default_str();
     make->add_option("--rooms", site.rooms, "flat: number of rooms")->capture_default_str();
     make->add_option("--out", site_out, "GeoJSON file; default: standard output");
+    SubmitOptions slurm;
+    bool print = false;
+    CLI::App* queue = app.add_subcommand(
+        "submit",
+        "Hands the job to Slurm, on one machine or several; takes it up after preemption");
+    add_submit(*queue, s, slurm, print);
+    queue->footer(exit_codes);
     CLI::App* list = app.add_subcommand("parameters", "Prints all parameters as Markdown");
 
     if (argc > 1 && argv[1][0] != '-' &&
@@ -175,6 +215,7 @@ int dispatch(int argc, char** argv, const Ranks& ranks) {
     if (!ranks.leader()) return 0;  // the other commands are for one process
     if (check->parsed()) return verify(s);
     if (make->parsed()) return generate(site, site_out);
+    if (queue->parsed()) return submit_job(s, slurm, print);
     if (list->parsed()) {
         fmt::print("{}", parameters_markdown());
         return 0;

@@ -34,10 +34,12 @@ int number_in(const char* variable, int otherwise) {
     return text == nullptr || *text == '\0' ? otherwise : std::atoi(text);
 }
 
+constexpr int unknown = 0;
+
 // What the launcher says in the environment. Slurm's variables count inside srun only, which sets
 // SLURM_STEP_NUM_TASKS; batch scripts have the job's numbers too.
 struct Launch {
-    int count = 1;
+    int count = 1;  // or unknown
     int rank = 0;
     bool common = false;  // the processes were told how to find each other
 };
@@ -50,9 +52,9 @@ Launch launch() {
     if (std::getenv("PMI_SIZE") != nullptr) {
         return {number_in("PMI_SIZE", 1), number_in("PMI_RANK", 0), true};
     }
-    l.count = number_in("SLURM_STEP_NUM_TASKS", 1);
-    l.rank = number_in("SLURM_PROCID", 0);
     l.common = std::getenv("PMIX_RANK") != nullptr;
+    l.count = number_in("SLURM_STEP_NUM_TASKS", l.common ? unknown : 1);
+    l.rank = number_in("SLURM_PROCID", number_in("PMIX_RANK", 0));
     return l;
 }
 
@@ -305,7 +307,7 @@ struct Ranks::Impl {
 
 Ranks::Ranks() : impl_(std::make_unique<Impl>()) {
     const Launch l = launch();
-    if (l.count <= 1) return;
+    if (l.count == 1) return;
     const auto refuse = [&](const std::string& why) {
         throw UsageError(l.rank > 0 ? ""
                                     : fmt::format("{} processes were started, {}", l.count, why));
@@ -321,7 +323,7 @@ Ranks::Ranks() : impl_(std::make_unique<Impl>()) {
             "use srun --mpi=pmix, or mpirun");
     }
     impl_->mpi = std::make_unique<Mpi>();
-    if (const int found = impl_->mpi->count(); found != l.count) {
+    if (const int found = impl_->mpi->count(); l.count != unknown && found != l.count) {
         refuse(
             fmt::format("but {} (which vfplan was built with) finds {}; use the mpirun that "
                         "belongs to it",
@@ -413,9 +415,9 @@ std::string Ranks::binding_warning() const {
     const int share = number_in("SLURM_CPUS_PER_TASK", node / here);
     if (mine >= share) return "";
     return fmt::format(
-        "mpirun binds each process to {} of {} processors, for {} processes on this machine; start "
+        "mpirun binds each of {} processes on this machine to {} of {} processors; start "
         "it with --bind-to none, or --map-by slot:PE={}",
-        mine, node, here, share);
+        here, mine, node, share);
 }
 
 }  // namespace vfplan
