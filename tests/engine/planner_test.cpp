@@ -146,8 +146,8 @@ TEST(Planner, NetworksShareAWorkspaceWithoutSeeingEachOther) {
         EXPECT_EQ(work.step, fresh.step);
         EXPECT_EQ(work.hops, fresh.hops);
         EXPECT_EQ(work.before, fresh.before);
-        for (const std::int32_t c : chosen) work.stations.add(c);
-        for (const std::int32_t c : close_loops(h.input(), chosen, work)) work.stations.remove(c);
+        if (round == 0) continue;
+        close_loops(h.input(), chosen, work);
         EXPECT_EQ(work.mark, fresh.mark);
         EXPECT_EQ(work.step, fresh.step);
         EXPECT_EQ(work.before, fresh.before);
