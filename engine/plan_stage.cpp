@@ -8,6 +8,7 @@
 #include "engine/tables_stage.h"
 #include "io/exports.h"
 #include "io/files.h"
+#include "io/h5.h"
 #include "io/map_png.h"
 #include "io/sha256.h"
 #include "io/vector_writer.h"
@@ -66,6 +67,22 @@ PlanTables plan_tables_of(const CoverageTables& t, OverlapRatio ratio) {
             piece_rows(t.table, by_angle(ratio)),
             piece_lengths_m(t.pieces),
             angles_of(t.table)};
+}
+
+PieceRows read_piece_rows(const std::filesystem::path& coverage, bool angles) {
+    const h5::Reader file(coverage);
+    PieceRows rows;
+    rows.begin = file.read<std::int64_t>("coverage/indptr");
+    rows.piece = file.read<std::int32_t>("coverage/indices");
+    if (angles) rows.angle_rad = file.read<float>("coverage/angle_rad");
+    return rows;
+}
+
+AngleSource angles_of(const std::filesystem::path& coverage) {
+    return [file = std::make_shared<h5::Reader>(coverage)](std::int64_t from, std::int64_t count) {
+        return file->read<float>("coverage/angle_rad", static_cast<std::uint64_t>(from),
+                                 static_cast<std::uint64_t>(count));
+    };
 }
 
 Planned plan_rows(const PlanOptions& options, double range_max_m, const PlanTables& t,

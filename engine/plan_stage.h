@@ -35,6 +35,10 @@ struct PlanTables {
 };
 PlanTables plan_tables_of(const CoverageTables& tables, OverlapRatio ratio);
 
+// The same parts of coverage.h5; angles for the links are read when they are asked for.
+PieceRows read_piece_rows(const std::filesystem::path& coverage, bool angles);
+AngleSource angles_of(const std::filesystem::path& coverage);
+
 // The same index serves overlap and certificate and is gone when the plan begins.
 Planned plan_rows(const PlanOptions& options, double range_max_m, const PlanTables& tables,
                   const Threads& threads, Progress& progress);

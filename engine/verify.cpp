@@ -31,16 +31,41 @@ private:
     bool all_ = true;
 };
 
-// Every piece's status against what the stations' exact rows cover.
-void check_coverage(const CoverageTables& t, const Plan& plan, const std::vector<CoverageRow>& rows,
-                    Checks& checks) {
-    std::vector<std::uint8_t> main(plan.pieces.size(), 0);
-    std::vector<std::uint8_t> other(plan.pieces.size(), 0);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        for (const Seen& s : rows[i]) {
-            (plan.stations[i].network == 0 ? main : other)[at(s.piece)] = 1;
+// What the stations see when looked from again.
+struct Again {
+    PieceRows rows;                   // of the stations, with angles where overlap goes by angle
+    std::vector<std::uint8_t> main;   // by piece: seen by a station of the main network
+    std::vector<std::uint8_t> other;  // by one of another
+};
+
+Again look_again(const Viewer& viewer, const Threads& threads, const std::vector<Vec2d>& eyes,
+                 const Plan& plan, bool angles) {
+    Again out;
+    out.main.assign(plan.pieces.size(), 0);
+    out.other.assign(plan.pieces.size(), 0);
+    constexpr std::size_t block = 4096;  // full rows are in memory for so many stations at a time
+    for (std::size_t first = 0; first < eyes.size(); first += block) {
+        const auto begin = eyes.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto end = begin + static_cast<std::ptrdiff_t>(std::min(block, eyes.size() - first));
+        std::size_t station = first;
+        for (const CoverageRow& row : viewer.rows(threads, {begin, end})) {
+            std::vector<std::uint8_t>& seen =
+                plan.stations[station++].network == 0 ? out.main : out.other;
+            for (const Seen& s : row) {
+                seen[at(s.piece)] = 1;
+                out.rows.piece.push_back(s.piece);
+                if (angles) out.rows.angle_rad.push_back(s.angle_rad);
+            }
+            out.rows.begin.push_back(static_cast<std::int64_t>(out.rows.piece.size()));
         }
     }
+    return out;
+}
+
+// Every piece's status against what the stations' exact rows cover.
+void check_coverage(const CoverageTables& t, const Plan& plan, const Again& again, Checks& checks) {
+    const std::vector<std::uint8_t>& main = again.main;
+    const std::vector<std::uint8_t>& other = again.other;
     std::int64_t covered = 0;
     std::int64_t not_covered = 0;
     std::int64_t unreached = 0;
@@ -82,16 +107,19 @@ void check_coverage(const CoverageTables& t, const Plan& plan, const std::vector
             seen_after_all > 0 ? fmt::format("; {} more are, after all", seen_after_all) : ""));
 }
 
-void check_connection(const CoverageTables& t, const PlanTable& table,
-                      const std::vector<CoverageRow>& rows, Checks& checks) {
+void check_connection(const CoverageTables& t, const PlanTable& table, const PieceRows& rows,
+                      Checks& checks) {
     const Plan& plan = table.plan;
+    const std::vector<double> length_m = piece_lengths_m(t.pieces);
+    const std::vector<SeenTotal> totals = seen_totals(rows, length_m);
     const OverlapRatio ratio = ratio_of(table.overlap_ratio);
     constexpr double rounding = 1e-6;  // angles are stored as floats
     std::vector<OverlapPair> pairs;
     std::int64_t weak = 0;
     double weakest = 1;
     for (const Link& l : plan.links) {
-        const double o = overlap(ratio, t.pieces, rows[at(l.from)], rows[at(l.to)]);
+        const double o = overlap(ratio, totals[at(l.from)], totals[at(l.to)],
+                                 seen_jointly(rows, length_m, l.from, l.to));
         if (o + rounding < table.threshold) ++weak;
         if (o + rounding >= table.threshold) pairs.push_back({l.from, l.to, o});
         weakest = std::min(weakest, o);
@@ -106,13 +134,12 @@ void check_connection(const CoverageTables& t, const PlanTable& table,
         components(make_graph(static_cast<std::int32_t>(plan.stations.size()), pairs));
     std::int32_t networks = 0;
     bool whole = true;
-    for (std::size_t a = 0; a < plan.stations.size(); ++a) {
-        networks = std::max(networks, plan.stations[a].network + 1);
-        for (std::size_t b = a + 1; b < plan.stations.size(); ++b) {
-            if (plan.stations[a].network == plan.stations[b].network && part[a] != part[b]) {
-                whole = false;
-            }
-        }
+    std::vector<std::int32_t> part_of(plan.stations.size(), -1);  // by network: its first station's
+    for (std::size_t i = 0; i < plan.stations.size(); ++i) {
+        const std::int32_t network = plan.stations[i].network;
+        networks = std::max(networks, network + 1);
+        if (part_of[at(network)] < 0) part_of[at(network)] = part[i];
+        whole = whole && part_of[at(network)] == part[i];
     }
     checks.add(whole, networks == 1
                           ? fmt::format("all {} stations are one network", plan.stations.size())
@@ -261,10 +288,12 @@ VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Pro
                         config.coverage.visible_fraction);
     std::vector<Vec2d> eyes;
     for (const Station& s : table.plan.stations) eyes.push_back(t.candidates[at(s.candidate)].at);
-    const std::vector<CoverageRow> rows = viewer.rows(threads, eyes);
-
-    check_coverage(t, table.plan, rows, checks);
-    check_connection(t, table, rows, checks);
+    {
+        const Again again =
+            look_again(viewer, threads, eyes, table.plan, by_angle(ratio_of(table.overlap_ratio)));
+        check_coverage(t, table.plan, again, checks);
+        check_connection(t, table, again.rows, checks);
+    }
     check_field(viewer, threads, field, table.plan, config.visibility.kernel, checks);
     constexpr int many_rays = 1024;
     const std::unique_ptr<ViewKernel> embree =

@@ -287,6 +287,27 @@ std::vector<T> Reader::read(const std::string& name) const {
     return out;
 }
 
+template <class T>
+std::vector<T> Reader::read(const std::string& name, std::uint64_t from,
+                            std::uint64_t count) const {
+    const Dims shape = dims(name);
+    if (shape.size() != 1 || from > shape[0] || count > shape[0] - from) {
+        impl_->fail("dataset " + name + " is too short");
+    }
+    std::vector<T> out(count);
+    if (count == 0) return out;
+    const Id set(H5Dopen2(impl_->file, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const Id part(H5Dget_space(set), H5Sclose);
+    const hsize_t start = from;
+    const hsize_t length = count;
+    H5Sselect_hyperslab(part, H5S_SELECT_SET, &start, nullptr, &length, nullptr);
+    const Id memory(H5Screate_simple(1, &length, nullptr), H5Sclose);
+    if (H5Dread(set, type_of<T>(), memory, part, H5P_DEFAULT, out.data()) < 0) {
+        impl_->fail("dataset " + name + " cannot be read");
+    }
+    return out;
+}
+
 bool Reader::has_attribute(const std::string& object, const std::string& name) const {
     return H5Aexists_by_name(impl_->file, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
@@ -317,9 +338,17 @@ template void Writer::write(const std::string&, const std::vector<std::uint8_t>&
 template void Writer::write(const std::string&, const std::vector<std::int32_t>&, Dims);
 template void Writer::write(const std::string&, const std::vector<std::int64_t>&, Dims);
 template std::vector<float> Reader::read(const std::string&) const;
+template std::vector<float> Reader::read(const std::string&, std::uint64_t, std::uint64_t) const;
 template std::vector<double> Reader::read(const std::string&) const;
+template std::vector<double> Reader::read(const std::string&, std::uint64_t, std::uint64_t) const;
 template std::vector<std::uint8_t> Reader::read(const std::string&) const;
+template std::vector<std::uint8_t> Reader::read(const std::string&, std::uint64_t,
+                                                std::uint64_t) const;
 template std::vector<std::int32_t> Reader::read(const std::string&) const;
+template std::vector<std::int32_t> Reader::read(const std::string&, std::uint64_t,
+                                                std::uint64_t) const;
 template std::vector<std::int64_t> Reader::read(const std::string&) const;
+template std::vector<std::int64_t> Reader::read(const std::string&, std::uint64_t,
+                                                std::uint64_t) const;
 
 }  // namespace vfplan::h5

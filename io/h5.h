@@ -60,6 +60,9 @@ public:
     Dims dims(const std::string& name) const;
     template <class T>
     std::vector<T> read(const std::string& name) const;
+    // `count` values of a dataset of one dimension, from `from` on.
+    template <class T>
+    std::vector<T> read(const std::string& name, std::uint64_t from, std::uint64_t count) const;
     bool has_attribute(const std::string& object, const std::string& name) const;
     std::string text(const std::string& object, const std::string& name) const;
     double number(const std::string& object, const std::string& name) const;
