@@ -147,7 +147,7 @@ void try_part(const Config& config, const Site& site, double wall_length_m, cons
     std::filesystem::create_directories(folder.path() / "work");
     const Moment begin = Moment::now();
     store_site(part, "estimate", site, threads, folder.path() / "work" / "site.h5");
-    make_tables(part, folder.path(), "estimate", threads, alone, quiet, true);
+    make_tables(part, folder.path(), "estimate", threads, alone, quiet);
     sum.cpu_s += Moment::now().cpu_s - begin.cpu_s;
     const CoverageTables tables = read_coverage(folder.path() / "coverage.h5");
     const FieldFile field(folder.path() / "field.h5");

@@ -151,6 +151,7 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
     }
     std::string text;
     ranks.lead([&] {
+        dir.remove_work();
         text = options.plan ? finish_plan(dir, config, threads, progress)
                             : finish_tables(dir, config, progress);
         write_provenance(dir, config, input_sha256, threads.count(), ranks.count());

@@ -310,11 +310,10 @@ void make_rescue(const Work& work) {
                 rescue_tile(work, tile, covered, path);
             });
     }
-    make_shard(work, "candidates", list_path(work, 0), [&](const std::filesystem::path&) {
+    make_shard(work, "candidates", list_path(work, found_list), [&](const std::filesystem::path&) {
         std::vector<Candidate> candidates = candidates_so_far(work);
         take_rescue_cells(work, candidates);
-        for (const Candidate& c : points_of_user(work)) candidates.push_back(c);
-        write_list(work, 0, candidates);
+        write_list(work, found_list, std::move(candidates));
     });
 }
 

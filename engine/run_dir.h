@@ -35,6 +35,8 @@ public:
     // Removes what a plan left (it must not stand beside other tables), or everything of a run.
     void remove_plan() const;
     void remove_run() const;
+    // Work in progress, and files that a killed process had not finished.
+    void remove_work() const;
 
     // The configuration of a finished precompute or run, with overrides. Throws IoError when it is
     // none.

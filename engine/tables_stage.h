@@ -27,10 +27,8 @@ void make_site(const Config& config, const std::filesystem::path& dir, const std
 
 // Makes what is missing of field.h5 and coverage.h5 in a run directory, on all ranks together:
 // every phase leaves shards, so an end at any instant loses little. Equal jobs give equal bytes;
-// of the field's shards with equal tiles, of all else always. REQUIRES: work/site.h5, which
-// goes with all that is in work/ unless it is kept. Throws Error.
+// of the field's shards with equal tiles, of all else always. REQUIRES: work/site.h5. Throws Error.
 void make_tables(const Config& config, const std::filesystem::path& dir, const std::string& key,
-                 const Threads& threads, const Ranks& ranks, Progress& progress,
-                 bool keep_work = false);
+                 const Threads& threads, const Ranks& ranks, Progress& progress);
 
 }  // namespace vfplan

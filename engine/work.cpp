@@ -1,6 +1,7 @@
 #include "engine/work.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,7 @@ void note_made_again(const std::string& why, Progress& progress) {
 void make_shards(const Work& work, const std::string& stage, std::int64_t n,
                  const std::function<std::filesystem::path(std::int64_t)>& path_of,
                  const std::function<void(std::int64_t, const std::filesystem::path&)>& make) {
+    malloc_trim(0);  // what the phase before took and gave back
     work.progress.stage(stage, n);
     work.ranks.share(work.threads, n, [&](std::int64_t task) {
         const std::filesystem::path path = path_of(task);
