@@ -160,8 +160,7 @@ void make_seeds(const Work& work) {
             for (const std::int64_t c : ridges.joints) seeds.push_back({c, CandidateKind::joint});
             for (const TileRidges::Line& ridge : ridges.ridges) {
                 for (const std::int64_t c : points_without_joint(layout.grid, ridge)) {
-                    seeds.push_back(
-                        {c, ridge.ring ? CandidateKind::ring : CandidateKind::middle});
+                    seeds.push_back({c, ridge.ring ? CandidateKind::ring : CandidateKind::middle});
                 }
             }
             write_tile_candidates(work, path, seeds, covered_from(work, seeds, {}), 0);
@@ -205,8 +204,7 @@ void make_ridge_points(const Work& work) {
             for (const Candidate& c : of_user) {
                 if (layout.tile_of(layout.cell_at(c.at)) == tile) users.push_back(c.at);
             }
-            write_tile_candidates(work, path, found, covered_from(work, found, users),
-                                  falls_short);
+            write_tile_candidates(work, path, found, covered_from(work, found, users), falls_short);
         });
 }
 
@@ -229,9 +227,7 @@ std::filesystem::path list_path(const Work& work, std::int64_t list) {
 void write_list(const Work& work, std::int64_t list, std::vector<Candidate> candidates,
                 std::int64_t parts) {
     const Layout& layout = work.layout();
-    const auto patch_of = [&](const Candidate& c) {
-        return layout.patch_of(layout.cell_at(c.at));
-    };
+    const auto patch_of = [&](const Candidate& c) { return layout.patch_of(layout.cell_at(c.at)); };
     std::stable_sort(candidates.begin(), candidates.end(),
                      [&](const Candidate& a, const Candidate& b) {
                          return std::tuple(patch_of(a), a.at.y(), a.at.x(), a.kind) <
@@ -307,7 +303,8 @@ ListPart read_list(const Work& work, std::int64_t list, const Window& window) {
     for (std::size_t i = 0; i < users.size(); ++i) {
         const std::int64_t patch = work.layout().patch_of(work.layout().cell_at(users[i].at));
         if (!std::binary_search(patches.begin(), patches.end(), patch)) continue;
-        out.number.push_back(static_cast<std::int32_t>(begin.back() + static_cast<std::int64_t>(i)));
+        out.number.push_back(
+            static_cast<std::int32_t>(begin.back() + static_cast<std::int64_t>(i)));
         out.candidates.push_back(users[i]);
     }
     return out;

@@ -1,8 +1,8 @@
 // Candidates from the skeleton, tile by tile (SPEC section 3): joints, ridge points, ridge ends,
 // points inserted for overlap, and rescue points.
 //
-// A row costs some twenty microseconds and a county's rows are gigabytes, so no phase keeps rows: it
-// keeps which pieces they cover, and looks again where it needs more.
+// A row costs some twenty microseconds and a county's rows are gigabytes, so no phase keeps rows:
+// it keeps which pieces they cover, and looks again where it needs more.
 #pragma once
 
 #include "engine/work.h"
@@ -20,8 +20,8 @@ using CoveredPieces = std::vector<bool>;
 void make_seeds(const Work& work);
 
 // work/ridges-TILE.h5: ends of ridges that cover what no seed does; along every ridge, while two
-// neighbours overlap less than the threshold, the arc's middle, down to 2 cells or depth 16; and the
-// user's points.
+// neighbours overlap less than the threshold, the arc's middle, down to 2 cells or depth 16; and
+// the user's points.
 void make_ridge_points(const Work& work);
 
 // work/rescue-TILE.h5: for every piece of the tile that nothing covers yet, the best cell that sees
@@ -29,8 +29,8 @@ void make_ridge_points(const Work& work);
 // pieces.
 void make_rescue(const Work& work);
 
-// work/candidates-LIST.h5: candidates by patch, then row, then column; vf_rad is not kept. Points of the
-// user are in no list: they are numbered behind it, in the order of the job.
+// work/candidates-LIST.h5: candidates by patch, then row, then column; vf_rad is not kept. Points
+// of the user are in no list: they are numbered behind it, in the order of the job.
 inline constexpr std::int64_t found_list = 0;   // before links
 inline constexpr std::int64_t linked_list = 1;  // with them
 std::filesystem::path list_path(const Work& work, std::int64_t list);

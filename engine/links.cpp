@@ -27,7 +27,9 @@ struct Way {
     CellPath cells;  // from candidate to candidate
 
     std::pair<std::int32_t, std::int32_t> parts() const { return {part[0], part[1]}; }
-    std::pair<std::int32_t, std::int32_t> candidates() const { return {candidate[0], candidate[1]}; }
+    std::pair<std::int32_t, std::int32_t> candidates() const {
+        return {candidate[0], candidate[1]};
+    }
     auto order() const { return std::tuple(length, meets_at, direction); }
 };
 
@@ -113,8 +115,8 @@ std::vector<Way> ways_of_tile(const Work& work, std::int64_t tile) {
         std::copy(some.begin(), some.end(), part.begin() + static_cast<std::ptrdiff_t>(i));
         i = k;
     }
-    if (part.empty() || std::all_of(part.begin(), part.end(),
-                                    [&](std::int32_t p) { return p == part.front(); })) {
+    if (part.empty() ||
+        std::all_of(part.begin(), part.end(), [&](std::int32_t p) { return p == part.front(); })) {
         return {};
     }
     const FieldWindow field = read_field_window(work.dir, layout, around);
@@ -262,8 +264,8 @@ void bridge_ways(const Work& work, const std::vector<Way>& ways, std::size_t fro
 
 constexpr std::size_t ways_at_once = 64;  // in one shard of bridges
 
-// Takes bridges, the shortest ways first, while they join what is apart. `parts`: how many there are,
-// before and after.
+// Takes bridges, the shortest ways first, while they join what is apart. `parts`: how many there
+// are, before and after.
 std::vector<Candidate> chosen_bridges(const Work& work, const std::vector<Way>& ways,
                                       std::int64_t& parts) {
     std::vector<std::uint8_t> good;

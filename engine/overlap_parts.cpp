@@ -104,10 +104,9 @@ std::vector<std::int32_t> connecting_pairs(const Work& work, std::int64_t tile) 
                     const Near& a = near[at(i)];
                     const Near& b = near[at(other)];
                     if (!a.own && !b.own) return;
-                    const double o =
-                        angles ? overlap(work.ratio(), rows[at(other)], row)
-                               : overlap(work.ratio(), rows[at(other)].total, row.total,
-                                         SeenJointly{length_m, 0, 0});
+                    const double o = angles ? overlap(work.ratio(), rows[at(other)], row)
+                                            : overlap(work.ratio(), rows[at(other)].total,
+                                                      row.total, SeenJointly{length_m, 0, 0});
                     if (o > 0 && o >= work.threshold()) found[at(i)].push_back(other);
                 });
                 std::sort(found[at(i)].begin(), found[at(i)].end());
@@ -138,8 +137,8 @@ std::int64_t make_parts(const Work& work) {
             finish_shard(file);
         });
     make_shard(work, "parts", parts_path(work), [&](const std::filesystem::path& path) {
-        const std::int64_t n = list_size(work, found_list) +
-                               static_cast<std::int64_t>(points_of_user(work).size());
+        const std::int64_t n =
+            list_size(work, found_list) + static_cast<std::int64_t>(points_of_user(work).size());
         DisjointSets sets(n);
         for (std::int64_t tile = 0; tile < work.layout().tiles(); ++tile) {
             const auto pair = h5::Reader(work.passing("pairs", tile)).read<std::int32_t>("pair");

@@ -6,8 +6,8 @@
 
 namespace vfplan {
 
-// work/pairs-TILE.h5 and work/parts-00000.h5: for each candidate of the list before links the part that
-// it belongs to, numbered by their first candidate. Returns how many there are.
+// work/pairs-TILE.h5 and work/parts-00000.h5: for each candidate of the list before links the part
+// that it belongs to, numbered by their first candidate. Returns how many there are.
 std::int64_t make_parts(const Work& work);
 
 // The part of the candidates numbered [from, from + count).

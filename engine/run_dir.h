@@ -47,10 +47,10 @@ private:
     std::filesystem::path path_;
 };
 
-// Takes a run directory for a job: makes the folder, writes job.toml, clears away what `fresh` makes
-// again. So hours of work are not begun for a folder that cannot be written, and whoever finds the
-// folder later knows whose it is. What it made goes again unless keep() is called, so that a job
-// that never began leaves nothing.
+// Takes a run directory for a job: makes the folder, writes job.toml, clears away what `fresh`
+// makes again. So hours of work are not begun for a folder that cannot be written, and whoever
+// finds the folder later knows whose it is. What it made goes again unless keep() is called, so
+// that a job that never began leaves nothing.
 class ClaimedFolder {
 public:
     // Throws IoError when the folder cannot be created or written.
@@ -65,7 +65,7 @@ private:
 
     const RunDir& dir_;
     bool kept_ = false;
-    bool new_job_ = false;                         // there was no job.toml
+    bool new_job_ = false;                        // there was no job.toml
     std::vector<std::filesystem::path> created_;  // folders, outermost first
 };
 

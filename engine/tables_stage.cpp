@@ -106,8 +106,7 @@ SceneOptions scene_options(const Config& c) {
             c.coverage.partition_m};
 }
 
-bool tables_complete(const std::filesystem::path& dir, const std::string& key,
-                     Progress& progress) {
+bool tables_complete(const std::filesystem::path& dir, const std::string& key, Progress& progress) {
     const bool field = index_complete(dir / "field.h5", key, progress);
     const bool coverage = index_complete(dir / "coverage.h5", key, progress);
     return field && coverage;
@@ -124,13 +123,14 @@ void make_site(const Config& config, const std::filesystem::path& dir, const std
 void make_tables(const Config& config, const std::filesystem::path& dir, const std::string& key,
                  const Threads& threads, const Ranks& ranks, Progress& progress) {
     ranks.lead([&] {
-        std::filesystem::create_directories(
-            dir / "work" / fmt::format("tiles-{}", config.field.tile_cells));
+        std::filesystem::create_directories(dir / "work" /
+                                            fmt::format("tiles-{}", config.field.tile_cells));
     });
     const SiteStore store(dir / "work" / "site.h5", config.field.tile_cells);
     const int kept = 8 + 8 * threads.count();  // a tile and its surroundings for each
-    Scenes scenes(store.layout(), [&](std::int64_t patch) { return store.patch(patch); },
-                  scene_options(config), kept);
+    Scenes scenes(
+        store.layout(), [&](std::int64_t patch) { return store.patch(patch); },
+        scene_options(config), kept);
     const Work work{config, dir, key, threads, ranks, progress, store, scenes};
     make_field_tiles(work);
     write_field_table(work);

@@ -21,7 +21,8 @@ SceneOptions scene_options(const Config& config);
 // is not is named in a note; an index without all its shards is removed.
 bool tables_complete(const std::filesystem::path& dir, const std::string& key, Progress& progress);
 
-// work/site.h5, on the leader alone, unless it is there. Throws as read_job_site() and store_site().
+// work/site.h5, on the leader alone, unless it is there. Throws as read_job_site() and
+// store_site().
 void make_site(const Config& config, const std::filesystem::path& dir, const std::string& key,
                const Threads& threads, Progress& progress);
 

@@ -11,8 +11,8 @@
 namespace vfplan {
 
 OverlapRatio Work::ratio() const {
-    const auto found = std::find(overlap_ratio_names.begin(), overlap_ratio_names.end(),
-                                 config.overlap.ratio);
+    const auto found =
+        std::find(overlap_ratio_names.begin(), overlap_ratio_names.end(), config.overlap.ratio);
     return static_cast<OverlapRatio>(found - overlap_ratio_names.begin());
 }
 
@@ -38,7 +38,8 @@ bool have_shard(const std::filesystem::path& path, const std::string& key, Progr
         if (!file.has_attribute("/", "complete") || file.text("/", "key") != key) {
             why = path.string() + ": of another job";
         } else if (file.text("/", "file") != path.filename().string()) {
-            why = fmt::format("{}: is {} under another name", path.string(), file.text("/", "file"));
+            why =
+                fmt::format("{}: is {} under another name", path.string(), file.text("/", "file"));
         } else {
             return true;
         }
