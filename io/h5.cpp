@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -68,6 +69,8 @@ hid_t type_of<std::int64_t>() {
 // over a file that could not be closed because the disk is full.
 void be_quiet() {
     static const herr_t once = [] {
+        // One writes, then others read; and network file systems often cannot lock.
+        setenv("HDF5_USE_FILE_LOCKING", "FALSE", 0);
         H5dont_atexit();
         return H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     }();
