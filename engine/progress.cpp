@@ -72,8 +72,16 @@ void Progress::stage(const std::string& name, std::int64_t total) {
     shown_percent_ = 0;
 }
 
-void Progress::advance(std::int64_t steps) {
-    const std::int64_t done = done_ += steps;
+void Progress::advance(std::int64_t steps) { tell(done_ += steps); }
+
+void Progress::reach(std::int64_t steps) {
+    std::int64_t done = done_;
+    while (done < steps && !done_.compare_exchange_weak(done, steps)) {
+    }
+    tell(std::max(done, steps));
+}
+
+void Progress::tell(std::int64_t done) {
     if (quiet_ || total_ == 0) return;
     const std::unique_lock lock(showing_, std::try_to_lock);
     if (lock.owns_lock()) show(done, false);

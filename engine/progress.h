@@ -28,8 +28,8 @@ struct StageTime {
     double peak_rss_mb = 0;  // highest resident memory in it, looked at every few milliseconds
 };
 
-// Standard error only. advance() and note() may be called from any thread, the rest from one.
-// stage() throws Stopped when a signal asked for an end.
+// Standard error only. advance(), reach() and note() may be called from any thread, the rest from
+// one. stage() throws Stopped when a signal asked for an end.
 class Progress {
 public:
     // `follower`: a rank that leaves the telling to the leader, but for its own warnings.
@@ -41,6 +41,8 @@ public:
     // Ends the stage before it. `total` 0: a stage without steps.
     void stage(const std::string& name, std::int64_t total = 0);
     void advance(std::int64_t steps);
+    // So many steps are done at least: for steps taken in order, by others too.
+    void reach(std::int64_t steps);
     void note(const std::string& text);  // a line of its own
     void warn(const std::string& text);  // the same with "warning:", on all ranks; not when quiet
     void finish();                       // ends the last stage
@@ -49,6 +51,7 @@ public:
     double wall_s() const { return Moment::now().wall_s - begin_.wall_s; }
 
 private:
+    void tell(std::int64_t done);
     void show(std::int64_t done, bool last);
 
     bool quiet_;

@@ -63,7 +63,7 @@ void make_shards(const Work& work, const std::string& stage, std::int64_t n,
     work.ranks.share(work.threads, n, [&](std::int64_t task) {
         const std::filesystem::path path = path_of(task);
         if (!have_shard(path, work.key, work.progress)) make(task, path);
-        work.progress.advance(1);
+        work.progress.reach(task + 1);  // tasks are handed out in order, to all ranks
     });
 }
 
