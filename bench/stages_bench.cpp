@@ -136,19 +136,10 @@ void stage_overlap(benchmark::State& state, const std::string& site) {
     const CoverageTables& c = m.tables.coverage;
     std::size_t pairs = 0;
     timed(state, [&] {
-        const InvertedIndex index = invert(c.table, c.pieces.size());
-        std::vector<SeenTotal> totals;
-        for (std::int64_t r = 0; r < c.table.rows(); ++r) {
-            totals.push_back(seen_total(c.pieces, c.table.row_begin(r), c.table.row_end(r)));
-        }
-        OverlapScratch scratch;
-        std::vector<OverlapPair> out;
-        for (std::int32_t r = 0; r < c.table.rows(); ++r) {
-            overlaps_of_row(c.pieces, c.table, index, totals,
-                            ratio_of(m.scene->config.overlap.ratio),
-                            m.scene->config.overlap.threshold, r, scratch, out);
-        }
-        pairs = out.size();
+        pairs = static_cast<std::size_t>(
+            overlap_graph(m.threads, c.pieces, c.table, ratio_of(m.scene->config.overlap.ratio),
+                          m.scene->config.overlap.threshold)
+                .edges());
         return pairs;
     });
     per_item(state, "rows", c.table.rows());

@@ -156,23 +156,43 @@ std::vector<std::int32_t> components(const Graph& graph) {
     return number;
 }
 
+namespace {
+
+// The two largest of the parts that a node would leave, while they are being found.
+struct Parts {
+    std::int32_t all = 0;
+    std::int32_t largest = 0;
+    std::int32_t second = 0;
+    void add(std::int32_t size) {
+        all += size;
+        second = std::max(second, std::min(largest, size));
+        largest = std::max(largest, size);
+    }
+};
+
+}  // namespace
+
 // Lowest-reachable numbering (Tarjan), without recursion. The graph has no parallel edges.
 Cuts find_cuts(const Graph& graph) {
     const auto n = at(graph.size());
     Cuts cuts;
     cuts.articulation.assign(n, 0);
     cuts.on_cycle.assign(n, 0);
+    cuts.lesser_part.assign(n, 0);
     std::vector<std::int32_t> order(n, -1);
     std::vector<std::int32_t> low(n, 0);
     std::vector<std::int32_t> parent(n, -1);
+    std::vector<std::int32_t> below(n, 1);  // nodes at and below each, in the search's tree
+    std::vector<Parts> parts(n);
     std::vector<std::int64_t> next(graph.begin.begin(), graph.begin.end() - 1);
     std::vector<std::int32_t> stack;
+    std::vector<std::int32_t> met;  // of one component, in their order
     std::int32_t clock = 0;
     for (std::int32_t root = 0; root < graph.size(); ++root) {
         if (order[at(root)] >= 0) continue;
-        int root_children = 0;
         order[at(root)] = low[at(root)] = clock++;
         stack.push_back(root);
+        met.assign(1, root);
         while (!stack.empty()) {
             const std::int32_t v = stack.back();
             if (next[at(v)] < graph.begin[at(v) + 1]) {
@@ -181,7 +201,7 @@ Cuts find_cuts(const Graph& graph) {
                     parent[at(w)] = v;
                     order[at(w)] = low[at(w)] = clock++;
                     stack.push_back(w);
-                    if (v == root) ++root_children;
+                    met.push_back(w);
                 } else if (w != parent[at(v)]) {
                     low[at(v)] = std::min(low[at(v)], order[at(w)]);
                 }
@@ -191,14 +211,19 @@ Cuts find_cuts(const Graph& graph) {
             const std::int32_t p = parent[at(v)];
             if (p < 0) continue;
             low[at(p)] = std::min(low[at(p)], low[at(v)]);
+            below[at(p)] += below[at(v)];
             if (low[at(v)] > order[at(p)]) {
                 ++cuts.bridges;
             } else {
                 cuts.on_cycle[at(v)] = cuts.on_cycle[at(p)] = 1;
             }
-            if (p != root && low[at(v)] >= order[at(p)]) cuts.articulation[at(p)] = 1;
+            if (low[at(v)] >= order[at(p)]) parts[at(p)].add(below[at(v)]);
         }
-        if (root_children > 1) cuts.articulation[at(root)] = 1;
+        for (const std::int32_t v : met) {  // what is left lies above; nothing does above the root
+            parts[at(v)].add(below[at(root)] - 1 - parts[at(v)].all);
+            cuts.lesser_part[at(v)] = parts[at(v)].second;
+            cuts.articulation[at(v)] = parts[at(v)].second > 0 ? 1 : 0;
+        }
     }
     return cuts;
 }

@@ -57,11 +57,14 @@ Graph induced(const Graph& graph, const std::vector<std::int32_t>& nodes);
 // Number of the connected component of each node, numbered by their first node.
 std::vector<std::int32_t> components(const Graph& graph);
 
-// Bridges, articulation nodes, and which nodes lie on a cycle.
+// Bridges, articulation nodes, and which nodes lie on a cycle. `lesser_part`: of what would remain
+// of a node's component without the node, the size of the second largest part; 0 where it stays
+// whole.
 struct Cuts {
     std::int64_t bridges = 0;
     std::vector<std::uint8_t> articulation;
     std::vector<std::uint8_t> on_cycle;
+    std::vector<std::int32_t> lesser_part;
 };
 Cuts find_cuts(const Graph& graph);
 

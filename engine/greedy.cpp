@@ -33,7 +33,7 @@ public:
           hops_(work.hops),
           step_(work.step),
           before_(work.before),
-          at_hops_(most_hops + 1) {}
+          ranked_(most_hops + 1) {}
 
     // Leaves the work space as it was.
     Chosen run(const std::vector<std::int32_t>& forced) {
@@ -106,7 +106,7 @@ private:
                 in_.graph.each(v, [&](std::int32_t n, double) {
                     if (hops_[at(n)] <= hops) return;
                     hops_[at(n)] = hops;
-                    at_hops_[at(hops)].push_back(n);
+                    ranked_[at(hops)].fresh.push_back(n);
                     if (hops == most_hops) rim_.push_back(n);
                     next.push_back(n);
                 });
@@ -119,34 +119,72 @@ private:
     // none. Among those equally far: most gain, then highest overlap with the step before it, then
     // lowest id.
     bool take_nearest_gain() {
-        // What has no gain, or has come nearer, is forgotten here for good.
-        for (std::int32_t hops = 1; hops <= most_hops; ++hops) {
-            std::vector<std::int32_t>& there = at_hops_[at(hops)];
-            std::erase_if(there,
-                          [&](std::int32_t c) { return hops_[at(c)] != hops || gain_m(c) <= 0; });
-            if (!there.empty()) {
-                take_way(there, hops);
-                return true;
+        std::vector<std::int32_t> goals;
+        for (std::int32_t hops = 1; hops <= most_hops && goals.empty(); ++hops) {
+            goals = most_gain_at(hops);
+        }
+        std::vector<std::int32_t> level;
+        if (goals.empty()) level = rim();
+        while (goals.empty() && !level.empty()) {
+            level = beyond(level);
+            double most = 0;
+            for (const std::int32_t c : level) {
+                const double gain = gain_m(c);
+                if (gain > most) goals.clear();
+                if (gain > 0 && gain >= most) goals.push_back(c);
+                most = std::max(most, gain);
             }
         }
-        for (std::vector<std::int32_t> level = rim(); !level.empty(); level = beyond(level)) {
-            std::vector<std::int32_t> goals = level;
-            std::erase_if(
-                goals, [&](std::int32_t c) { return hops_[at(c)] == most_hops || gain_m(c) <= 0; });
-            if (!goals.empty()) {
-                take_way(goals, hops_[at(goals.front())]);
-                return true;
+        if (goals.empty()) return false;
+        const auto key = [&](std::int32_t c) {
+            double step = 0;
+            in_.graph.each(c, [&](std::int32_t n, double overlap) {
+                if (hops_[at(n)] == hops_[at(c)] - 1) step = std::max(step, overlap);
+            });
+            return std::pair(step, -c);
+        };
+        std::int32_t goal = goals.front();
+        for (const std::int32_t c : goals) {
+            if (key(c) > key(goal)) goal = c;
+        }
+        take_way_to(goal);
+        return true;
+    }
+
+    // Those so many hops away that have the most gain; none when none has any. Gains only shrink
+    // and candidates only come nearer, so most of what lies there is never looked at again.
+    std::vector<std::int32_t> most_gain_at(std::int32_t hops) {
+        Ranked& there = ranked_[at(hops)];
+        for (const std::int32_t c : there.fresh) {
+            if (hops_[at(c)] != hops) continue;
+            if (const double gain = gain_m(c); gain > 0) there.by_gain.emplace(gain, c);
+        }
+        there.fresh.clear();
+        std::vector<std::int32_t> out;
+        double most = 0;
+        while (!there.by_gain.empty() && (out.empty() || there.by_gain.top().first == most)) {
+            const auto [gain, c] = there.by_gain.top();
+            there.by_gain.pop();
+            if (hops_[at(c)] != hops) continue;
+            const double now = gain_m(c);
+            if (now == gain) {
+                most = gain;
+                out.push_back(c);
+            } else if (now > 0) {
+                there.by_gain.emplace(now, c);
             }
         }
-        return false;
+        for (const std::int32_t c : out) there.by_gain.emplace(most, c);
+        return out;
     }
 
     // Takes the fewest hops from the chosen set to v.
     // REQUIRES: v is joined to the chosen set.
     void take_way_to(std::int32_t v) {
-        std::vector<std::int32_t> level = rim();
+        std::vector<std::int32_t> level;
+        if (hops_[at(v)] == Workspace::far_away) level = rim();
         while (hops_[at(v)] == Workspace::far_away) level = beyond(level);
-        take_way({v}, hops_[at(v)]);
+        take_way(v);
     }
 
     // What is most_hops away.
@@ -169,10 +207,10 @@ private:
         return out;
     }
 
-    // Takes the best way to one of `goals`, all of them so many hops away, looking only at the
-    // ways that lead there.
-    void take_way(const std::vector<std::int32_t>& goals, std::int32_t hops) {
-        std::vector<std::vector<std::int32_t>> levels = {goals};
+    // Takes the best way to `goal`, looking only at the shortest ways that lead there.
+    void take_way(std::int32_t goal) {
+        const std::int32_t hops = hops_[at(goal)];
+        std::vector<std::vector<std::int32_t>> levels = {{goal}};
         std::vector<std::int32_t> touched = levels.back();
         for (const std::int32_t c : touched) before_[at(c)] = reached;
         for (std::int32_t h = hops; h > 1; --h) {
@@ -201,11 +239,6 @@ private:
                 });
             }
         }
-        std::int32_t goal = levels.back().front();
-        const auto key = [&](std::int32_t c) { return std::tuple(gain_m(c), step_[at(c)], -c); };
-        for (const std::int32_t c : levels.back()) {
-            if (key(c) > key(goal)) goal = c;
-        }
         std::vector<std::int32_t> path;
         for (std::int32_t v = goal; v >= 0; v = before_[at(v)]) path.push_back(v);
         for (const std::int32_t c : touched) {
@@ -233,6 +266,12 @@ private:
         return -1;
     }
 
+    // Candidates equally many hops away. Some have come nearer or gained less since.
+    struct Ranked {
+        std::vector<std::int32_t> fresh;  // not looked at yet
+        std::priority_queue<std::pair<double, std::int32_t>> by_gain;
+    };
+
     static constexpr std::int32_t most_hops = 8;  // kept up to date; beyond, beyond() looks
     static constexpr std::int32_t nowhere = -1;   // before_: not on a way
     static constexpr std::int32_t reached = -2;   // before_: on a way, nothing before it yet
@@ -245,9 +284,9 @@ private:
     std::vector<std::int32_t>& hops_;  // from the chosen set
     std::vector<double>& step_;        // best overlap with the step before, on the ways at hand
     std::vector<std::int32_t>& before_;
-    std::vector<std::vector<std::int32_t>> at_hops_;  // candidates by hops; some out of date
-    std::vector<std::int32_t> rim_;                   // most_hops away; some out of date
-    std::vector<std::int32_t> beyond_;                // farther than that, found for one way
+    std::vector<Ranked> ranked_;        // by hops
+    std::vector<std::int32_t> rim_;     // most_hops away; some have come nearer
+    std::vector<std::int32_t> beyond_;  // farther than that, found for one way
     std::priority_queue<Entry> frontier_;
     Chosen order_;
 };

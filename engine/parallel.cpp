@@ -117,8 +117,6 @@ void Threads::for_each(std::int64_t n, std::int64_t grain,
     });
 }
 
-void Threads::isolated(const std::function<void()>& body) { tbb::this_task_arena::isolate(body); }
-
 void Threads::run(const std::function<void()>& body) const { impl_->arena.execute(body); }
 
 void Threads::apart(const std::function<void()>& body) { tbb::this_task_arena::isolate(body); }

@@ -24,10 +24,6 @@ public:
     void for_each(std::int64_t n, std::int64_t grain,
                   const std::function<void(std::int64_t from, std::int64_t to)>& body) const;
 
-    // Runs `body` so that this thread, when it waits inside, takes up nothing from outside: for work
-    // under a lock. for_each() does so by itself.
-    static void isolated(const std::function<void()>& body);
-
     // Runs inside the threads' arena, for libraries that use TBB themselves.
     void run(const std::function<void()>& body) const;
 

@@ -129,7 +129,11 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
     progress.stage("site");
     const std::string input_sha256 = input_hash(config);
     const JobKeys keys = job_keys(config, input_sha256);
-    if (options.dry_run) return estimate_text(config, threads, progress);
+    if (options.dry_run) {
+        std::string text;
+        ranks.lead([&] { text = estimate_text(estimate(config, threads, progress), config, threads); });
+        return text;
+    }
     ranks.lead([&] {
         dir.check(keys, options.fresh);
         ClaimedFolder folder(dir, config, keys, options.fresh);

@@ -8,6 +8,7 @@
 #include "engine/tables_stage.h"
 #include "io/exports.h"
 #include "io/files.h"
+#include "io/h5.h"
 #include "io/map_png.h"
 #include "io/sha256.h"
 #include "io/vector_writer.h"

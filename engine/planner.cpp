@@ -104,6 +104,7 @@ Workspace::Workspace(const Graph& graph)
       step(mark.size(), 0),
       hops(mark.size(), far_away),
       before(mark.size(), -1),
+      chosen(graph),
       stations(graph) {}
 
 Plan make_plan(const PlanInput& in, const PlanOptions& options, PlanReport& report) {
@@ -145,7 +146,6 @@ Plan make_plan(const PlanInput& in, const PlanOptions& options, PlanReport& repo
     report.loose_before = report.loose_after = loose_stations(in, networks);
     for (const Chosen& chosen : networks) {
         report.before_loops += static_cast<std::int64_t>(chosen.size());
-        for (const std::int32_t c : chosen) work.stations.add(c);
     }
     if (options.loops) {
         for (Chosen& chosen : networks) chosen = close_loops(in, chosen, work);
@@ -252,21 +252,67 @@ void add_ratios(const PlanInput& in, const AngleSource& angles, Plan& plan) {
     }
 }
 
+namespace {
+
+// Nodes that certainly cut a network, which shrinks: those of which both sides had more nodes than
+// have gone since. Looking around such a node would cost as much as its lesser side holds, which in
+// a large network is much; this list costs about as much as the looking around that it follows.
+class SureCuts {
+public:
+    SureCuts(const Graph& graph, const Separation& network, const Chosen& chosen)
+        : graph_(graph), network_(network), chosen_(chosen) {}
+
+    bool cuts(std::int32_t v) const {
+        const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), v);
+        return found != nodes_.end() && lesser_part_[at(found - nodes_.begin())] > gone_;
+    }
+    // To be told of each node that goes.
+    void one_gone() { ++gone_; }
+    void renew() {
+        if (network_.steps() - steps_ <
+            static_cast<std::int64_t>(chosen_.size()) + graph_.size() / 64) {
+            return;
+        }
+        nodes_.clear();
+        for (const std::int32_t v : chosen_) {
+            if (network_.inside(v)) nodes_.push_back(v);
+        }
+        std::sort(nodes_.begin(), nodes_.end());
+        lesser_part_ = find_cuts(induced(graph_, nodes_)).lesser_part;
+        gone_ = 0;
+        steps_ = network_.steps();
+    }
+
+private:
+    const Graph& graph_;
+    const Separation& network_;
+    const Chosen& chosen_;
+    std::int64_t steps_ = network_.steps();
+    std::int64_t gone_ = 0;
+    std::vector<std::int32_t> nodes_;        // ascending, when last renewed
+    std::vector<std::int32_t> lesser_part_;  // of each
+};
+
+}  // namespace
+
 Chosen prune_network(const PlanInput& in, const Chosen& chosen,
                      const std::vector<std::uint8_t>& kept, std::vector<std::int32_t>& count,
                      Workspace& work) {
-    Separation& network = work.stations;
+    Separation& network = work.chosen;
     for (const std::int32_t v : chosen) network.add(v);
+    SureCuts sure(in.graph, network, chosen);
     std::size_t left = chosen.size();
     for (auto v = chosen.rbegin(); v != chosen.rend() && left > 1; ++v) {
         const std::span<const std::int32_t> row = in.rows.row(*v);
         if (kept[at(*v)] != 0 ||
-            std::any_of(row.begin(), row.end(), [&](std::int32_t p) { return count[at(p)] < 2; }) ||
-            !network.can_go(*v)) {
+            std::any_of(row.begin(), row.end(), [&](std::int32_t p) { return count[at(p)] < 2; })) {
             continue;
         }
+        sure.renew();
+        if (sure.cuts(*v) || !network.can_go(*v)) continue;
         for (const std::int32_t p : row) --count[at(p)];
         network.remove(*v);
+        sure.one_gone();
         --left;
     }
     Chosen out;
@@ -287,7 +333,7 @@ public:
     // Breadth first from v through candidates that are not stations, to the first one that touches
     // another station; among those of one level the widest path (its smallest overlap), then the
     // lowest id. Returns it from its far end to v, without v; empty where there is none.
-    std::vector<std::int32_t> from(std::int32_t v, const Separation& network) {
+    std::vector<std::int32_t> from(std::int32_t v, const Cycles& network) {
         std::vector<std::int32_t> level = {v};
         std::vector<std::int32_t> path;
         width_[at(v)] = 1;
@@ -321,7 +367,7 @@ public:
 
 private:
     std::vector<std::int32_t> next_level(const std::vector<std::int32_t>& level,
-                                         const Separation& network) {
+                                         const Cycles& network) {
         std::vector<std::int32_t> next;
         for (const std::int32_t c : level) {
             in_.graph.each(c, [&](std::int32_t n, double overlap_value) {
@@ -354,6 +400,7 @@ private:
 Chosen close_loops(const PlanInput& in, const Chosen& chosen, Workspace& work) {
     Chosen out = chosen;
     if (out.size() < 2) return out;
+    work.stations.add_network(chosen);
     LoopSearch search(in, work);
     for (const std::int32_t v : chosen) {
         if (work.stations.on_cycle(v)) continue;

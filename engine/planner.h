@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/cycles.h"
 #include "engine/graph.h"
 #include "engine/piece_rows.h"
 #include "engine/separation.h"
@@ -55,8 +56,7 @@ std::vector<std::int32_t> independent_pieces(const PieceRows& rows, const PieceI
 using Chosen = std::vector<std::int32_t>;
 
 // What the steps note by candidate. Made once and shared by all networks, so that a small network
-// costs what it holds, not what the graph holds: a step leaves everything as it found it, except
-// that `stations` are those chosen for good.
+// costs what it holds, not what the graph holds: a step leaves the arrays as it found them.
 struct Workspace {
     explicit Workspace(const Graph& graph);
 
@@ -66,7 +66,8 @@ struct Workspace {
     std::vector<double> step;          // 0
     std::vector<std::int32_t> hops;    // far_away
     std::vector<std::int32_t> before;  // -1
-    Separation stations;
+    Separation chosen;                 // of the networks pruned so far
+    Cycles stations;                   // of the networks whose loops are closed
 };
 
 // Algorithm 1 with its gaps closed (SPEC section 6). Chooses among `members` (one connected
@@ -78,14 +79,13 @@ Chosen greedy_network(const PlanInput& input, const std::vector<std::int32_t>& m
 
 // Takes out, last chosen first, what neither coverage nor connection needs. `kept` (by candidate)
 // must stay; `count` holds how many stations of this network and those before it cover each
-// piece, and is kept up to date. Those that stay are added to work.stations.
+// piece, and is kept up to date.
 Chosen prune_network(const PlanInput& input, const Chosen& chosen,
                      const std::vector<std::uint8_t>& kept, std::vector<std::int32_t>& count,
                      Workspace& work);
 
 // Adds, for each station on no cycle, the fewest candidates that put it on one through another
-// station, where there are any.
-// REQUIRES: the network is in work.stations, where what is added goes too.
+// station, where there are any. Once for each network of a work space.
 Chosen close_loops(const PlanInput& input, const Chosen& chosen, Workspace& work);
 
 }  // namespace vfplan

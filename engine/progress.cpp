@@ -24,19 +24,16 @@ std::string span_text(double s) {
     return fmt::format("{}:{:02d} min", static_cast<int>(s) / 60, static_cast<int>(s) % 60);
 }
 
-// The kernel keeps the highest resident memory, and forgets it when told so (Linux; where it may not
-// be told, stages show the highest so far).
-double peak_now_mb() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-void forget_peak() {
-    if (std::FILE* file = std::fopen("/proc/self/clear_refs", "w")) {
-        std::fputs("5", file);
-        std::fclose(file);
-    }
+// Resident memory now; 0 where the system does not tell (Linux does).
+double resident_mb() {
+    std::FILE* file = std::fopen("/proc/self/statm", "r");
+    if (file == nullptr) return 0;
+    long whole = 0;
+    long resident = 0;
+    const int read = std::fscanf(file, "%ld %ld", &whole, &resident);
+    std::fclose(file);
+    if (read != 2) return 0;
+    return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1U << 20U);
 }
 
 }  // namespace
@@ -47,7 +44,21 @@ Progress::Progress(bool quiet)
     : quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) != 0),
       begin_(Moment::now()),
-      stage_begin_(begin_) {}
+      stage_begin_(begin_),
+      watcher_([this](const std::stop_token& stop) { watch_memory(stop); }) {}
+
+Progress::~Progress() {
+    watcher_.request_stop();
+    watcher_.join();
+}
+
+void Progress::watch_memory(const std::stop_token& stop) {
+    using namespace std::chrono_literals;
+    std::unique_lock lock(watching_);
+    while (!end_of_watch_.wait_for(lock, stop, 20ms, [&] { return stop.stop_requested(); })) {
+        stage_peak_mb_ = std::max(stage_peak_mb_.load(), resident_mb());
+    }
+}
 
 void Progress::stage(const std::string& name, std::int64_t total) {
     stop_if_asked();
@@ -99,8 +110,7 @@ void Progress::finish() {
     if (name_.empty()) return;
     const Moment now = Moment::now();
     times_.push_back({name_, now.wall_s - stage_begin_.wall_s, now.cpu_s - stage_begin_.cpu_s,
-                      peak_now_mb()});
-    forget_peak();
+                      std::max(stage_peak_mb_.exchange(0), resident_mb())});
     if (!quiet_ && times_.back().wall_s >= 0.1) {
         note(fmt::format("{:<12} {}", name_, span_text(times_.back().wall_s)));
     }
@@ -108,9 +118,9 @@ void Progress::finish() {
 }
 
 double Progress::peak_rss_mb() const {
-    double most = peak_now_mb();
-    for (const StageTime& s : times_) most = std::max(most, s.peak_rss_mb);
-    return most;
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
 }  // namespace vfplan

@@ -3,9 +3,12 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <mutex>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -22,7 +25,7 @@ struct StageTime {
     std::string name;
     double wall_s = 0;
     double cpu_s = 0;
-    double peak_rss_mb = 0;  // highest resident memory in it
+    double peak_rss_mb = 0;  // highest resident memory in it, looked at every few milliseconds
 };
 
 // Standard error only. advance() and note() may be called from any thread, the rest from one. stage()
@@ -30,6 +33,9 @@ struct StageTime {
 class Progress {
 public:
     explicit Progress(bool quiet);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
 
     // Ends the stage before it. `total` 0: a stage without steps.
     void stage(const std::string& name, std::int64_t total = 0);
@@ -37,7 +43,7 @@ public:
     void note(const std::string& text);  // a line of its own
     void finish();                       // ends the last stage
     const std::vector<StageTime>& times() const { return times_; }
-    double peak_rss_mb() const;  // of all stages so far
+    double peak_rss_mb() const;  // highest resident memory of the process so far
     double wall_s() const { return Moment::now().wall_s - begin_.wall_s; }
 
 private:
@@ -54,6 +60,12 @@ private:
     double shown_at_s_ = 0;
     std::int64_t shown_percent_ = -1;
     std::vector<StageTime> times_;
+
+    void watch_memory(const std::stop_token& stop);
+    std::atomic<double> stage_peak_mb_{0};
+    std::mutex watching_;
+    std::condition_variable_any end_of_watch_;
+    std::jthread watcher_;
 };
 
 

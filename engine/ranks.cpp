@@ -331,6 +331,8 @@ Ranks::Ranks() : impl_(std::make_unique<Impl>()) {
     }
 }
 
+Ranks::Ranks(Alone) : impl_(std::make_unique<Impl>()) {}
+
 Ranks::~Ranks() {
     // Without this, a rank that left early would make the others wait for ever.
     if (impl_->mpi && !impl_->over) fail(std::uncaught_exceptions() > 0 ? 70 : 0);

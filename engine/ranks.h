@@ -26,6 +26,9 @@ public:
     // Starts MPI only where mpirun or srun says that there is more than one process. Throws
     // UsageError where several processes were started and cannot know of each other.
     Ranks();
+    // This process alone, whoever else was started with it: for work that is no part of the job.
+    struct Alone {};
+    explicit Ranks(Alone alone);
     ~Ranks();
     Ranks(const Ranks&) = delete;
     Ranks& operator=(const Ranks&) = delete;

@@ -93,7 +93,7 @@ std::shared_ptr<const Scene> Scenes::of_patch(std::int64_t patch) {
     }
     const std::lock_guard lock(entry->making);
     if (!entry->scene) {
-        Threads::isolated([&] {
+        Threads::apart([&] {
             entry->scene = std::make_shared<const Scene>(layout_, patch, site_(patch), options_);
         });
     }

@@ -12,9 +12,6 @@ Separation::Separation(const Graph& graph, std::vector<std::uint8_t> inside)
 Separation::Separation(const Graph& graph)
     : Separation(graph, std::vector<std::uint8_t>(at(graph.size()), 0)) {}
 
-bool Separation::can_go(std::int32_t node) { return search(node, Until::all_met); }
-bool Separation::on_cycle(std::int32_t node) { return search(node, Until::two_met); }
-
 std::size_t Separation::root(std::size_t side) const {
     while (sides_[side].joined_to != side) side = sides_[side].joined_to;
     return side;
@@ -25,6 +22,7 @@ void Separation::step(std::size_t side, std::int32_t without) {
     Side& s = sides_[side];
     if (s.next == s.queue.size()) return;
     const std::int32_t v = s.queue[s.next++];
+    ++steps_;
     graph_.each(v, [&](std::int32_t n, double) {
         if (n == without || inside_[at(n)] == 0) return;
         if (side_of_[at(n)] < 0) {
@@ -48,7 +46,7 @@ bool Separation::finished(std::size_t side) const {
     return true;
 }
 
-bool Separation::search(std::int32_t node, Until until) {
+bool Separation::can_go(std::int32_t node) {
     sides_.clear();
     graph_.each(node, [&](std::int32_t n, double) {
         if (inside_[at(n)] == 0) return;
@@ -57,12 +55,12 @@ bool Separation::search(std::int32_t node, Until until) {
     });
     const std::size_t count = sides_.size();
     apart_ = count;
-    bool met = until == Until::all_met && count < 2;
+    bool met = count < 2;
     std::size_t going = count;  // roots that may still meet another
     while (going > 1 && !met) {
         for (std::size_t i = 0; i < count && !met; ++i) {
             step(i, node);
-            met = until == Until::all_met ? apart_ == 1 : apart_ < count;
+            met = apart_ == 1;
         }
         if (met) break;
         going = 0;
@@ -75,7 +73,7 @@ bool Separation::search(std::int32_t node, Until until) {
                 ++going;
             }
         }
-        if (closed && until == Until::all_met) break;  // one side holds nothing of the others
+        if (closed) break;  // one side holds nothing of the others
     }
     for (const Side& s : sides_) {
         for (const std::int32_t v : s.queue) side_of_[at(v)] = -1;

@@ -24,8 +24,8 @@ public:
 
     // True when the chosen neighbours of `node` stay connected with each other without it.
     bool can_go(std::int32_t node);
-    // True when the node lies on a cycle of chosen nodes.
-    bool on_cycle(std::int32_t node);
+    // Nodes looked around from so far.
+    std::int64_t steps() const { return steps_; }
 
 private:
     // One of the neighbours' searches, or several that have met.
@@ -34,9 +34,7 @@ private:
         std::size_t next = 0;
         std::size_t joined_to = 0;  // itself, or the side that it met
     };
-    enum class Until { all_met, two_met };
 
-    bool search(std::int32_t node, Until until);
     std::size_t root(std::size_t side) const;
     void step(std::size_t side, std::int32_t without);
     bool finished(std::size_t side) const;
@@ -45,6 +43,7 @@ private:
     std::vector<std::uint8_t> inside_;
     std::vector<std::int32_t> side_of_;  // of the current search; -1 outside it
     std::vector<Side> sides_;
+    std::int64_t steps_ = 0;
     std::size_t apart_ = 0;  // sides that have not met another yet, roots
 };
 

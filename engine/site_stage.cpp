@@ -179,17 +179,25 @@ std::vector<std::vector<std::uint8_t>> standable_bits(const Config& config, cons
     return out;
 }
 
-void make_site_store(const Config& config, const std::string& key, const Threads& threads,
-                     Progress& progress, const std::filesystem::path& path) {
+Site read_job_site(const Config& config, const Threads& threads, Progress& progress) {
     SiteOptions options = site_options(config);
     options.for_each = [&](std::int64_t n, const SiteOptions::Body& body) {
         threads.for_each(n, 16, body);
     };
     SiteResult read = read_site(config.site.input, options);
     for (const std::string& w : read.warnings) progress.note("warning: " + w);
-    const Site& site = read.site;
+    progress.note(site_text(read.site));
+    if (!config.plan.required.empty()) {
+        check_points(config.plan.required, read.site, forbidden_rings(config, read.site),
+                     "plan.required");
+    }
+    check_points(config.plan.existing, read.site, {}, "plan.existing");
+    return std::move(read.site);
+}
+
+void store_site(const Config& config, const std::string& key, const Site& site,
+                const Threads& threads, const std::filesystem::path& path) {
     const Layout layout = layout_of(config, site);
-    progress.note(site_text(site));
     const auto bits = standable_bits(config, site, layout, threads);
     SiteFacts facts;
     for (const auto& patch : bits) {
@@ -201,8 +209,6 @@ void make_site_store(const Config& config, const std::string& key, const Threads
                         "choose a smaller cell",
                         config.field.cell_m));
     }
-    check_points(config.plan.required, site, forbidden_rings(config, site), "plan.required");
-    check_points(config.plan.existing, site, {}, "plan.existing");
     const Pieces pieces = cut_into_pieces(site.walls, config.coverage.partition_m);
     facts.origin = site.origin;
     facts.crs_wkt = site.crs_wkt;

@@ -25,10 +25,13 @@ std::vector<std::vector<std::uint8_t>> standable_bits(const Config& config, cons
                                                       const Layout& layout,
                                                       const Threads& threads);
 
-// Reads the site and writes the store. Notes what was cleaned. Throws UsageError when a point of the
-// user lies where no station can stand, or no cell is free; InputError; IoError.
-void make_site_store(const Config& config, const std::string& key, const Threads& threads,
-                     Progress& progress, const std::filesystem::path& path);
+// Reads and checks the site. Notes what was cleaned. Throws UsageError when a point of the user lies
+// where no station can stand; InputError; IoError.
+Site read_job_site(const Config& config, const Threads& threads, Progress& progress);
+
+// Writes the store of a site. Throws UsageError when no cell is free; IoError.
+void store_site(const Config& config, const std::string& key, const Site& site,
+                const Threads& threads, const std::filesystem::path& path);
 
 // One line for people.
 std::string site_text(const Site& site);

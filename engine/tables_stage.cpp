@@ -117,12 +117,12 @@ void make_site(const Config& config, const std::filesystem::path& dir, const std
                const Threads& threads, Progress& progress) {
     const std::filesystem::path site = dir / "work" / "site.h5";
     if (have_shard(site, key, progress)) return;
-    make_site_store(config, key, threads, progress, site);
+    store_site(config, key, read_job_site(config, threads, progress), threads, site);
     malloc_trim(0);  // of what reading took, nothing is needed any more
 }
 
 void make_tables(const Config& config, const std::filesystem::path& dir, const std::string& key,
-                 const Threads& threads, const Ranks& ranks, Progress& progress) {
+                 const Threads& threads, const Ranks& ranks, Progress& progress, bool keep_work) {
     ranks.lead([&] {
         std::filesystem::create_directories(
             dir / "work" / fmt::format("tiles-{}", config.field.tile_cells));
@@ -137,6 +137,7 @@ void make_tables(const Config& config, const std::filesystem::path& dir, const s
     const std::filesystem::path coverage = dir / "coverage.h5";
     ranks.lead([&] { index_complete(coverage, key, progress); });  // gone after this, or good
     if (!std::filesystem::exists(coverage)) make_coverage(work);
+    if (keep_work) return;
     ranks.lead([&] {
         std::error_code ignored;
         std::filesystem::remove_all(dir / "work", ignored);

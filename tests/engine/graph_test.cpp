@@ -136,9 +136,22 @@ TEST(Graph, ComponentsBridgesAndArticulationEqualBruteForce) {
             const int others = parts - (lonely ? 1 : 0);
             EXPECT_EQ(cuts.articulation[static_cast<std::size_t>(v)],
                       count_parts(n, pairs, v, none) > others ? 1 : 0);
+            EXPECT_EQ(cuts.lesser_part[static_cast<std::size_t>(v)] > 0,
+                      cuts.articulation[static_cast<std::size_t>(v)] != 0);
         }
     }
     EXPECT_GT(bridges, 100);
+}
+
+TEST(Graph, TheLesserPartIsTheSecondLargest) {
+    // A triangle 0 1 2; at 2 hang 3 and a path 4 5; 6 - 7 apart.
+    const Graph g = make_graph(
+        8, {{0, 1, 1}, {0, 2, 1}, {1, 2, 1}, {2, 3, 1}, {2, 4, 1}, {4, 5, 1}, {6, 7, 1}});
+    EXPECT_EQ(find_cuts(g).lesser_part, (std::vector<std::int32_t>{0, 0, 2, 0, 1, 0, 0, 0}));
+    // The same from the other end.
+    const Graph h = make_graph(
+        8, {{0, 1, 1}, {2, 3, 1}, {3, 5, 1}, {4, 5, 1}, {5, 6, 1}, {5, 7, 1}, {6, 7, 1}});
+    EXPECT_EQ(find_cuts(h).lesser_part, (std::vector<std::int32_t>{0, 0, 0, 1, 0, 2, 0, 0}));
 }
 
 TEST(Graph, OverlapGraphIsTheSameForAnyNumberOfThreads) {

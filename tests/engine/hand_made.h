@@ -64,7 +64,6 @@ inline Chosen prune_alone(const HandMade& h, const Chosen& chosen,
 }
 inline Chosen loops_alone(const HandMade& h, const Chosen& chosen) {
     Workspace work(h.graph);
-    for (const std::int32_t c : chosen) work.stations.add(c);
     return close_loops(h.input(), chosen, work);
 }
 

@@ -58,6 +58,30 @@ TEST(H5, ReadsBackWhatWasWritten) {
     EXPECT_FALSE(in.has_attribute("/", "author"));
 }
 
+TEST(H5, ReadsAPartOfARun) {
+    const test::TemporaryFile file("part.h5");
+    {
+        h5::Writer out(file.path());
+        out.write("run", ramp(700000));  // several chunks
+        out.write("none", std::vector<float>{});
+        out.write("square", ramp(100), {10, 10});
+        out.close();
+    }
+    const h5::Reader in(file.path());
+    const std::vector<double> all = ramp(700000);
+    for (const auto& [from, count] : std::vector<std::pair<int, int>>{
+             {0, 700000}, {0, 1}, {699999, 1}, {262000, 300000}, {262144, 262144}, {5, 0}}) {
+        EXPECT_EQ(in.read<double>("run", static_cast<std::uint64_t>(from),
+                                  static_cast<std::uint64_t>(count)),
+                  std::vector<double>(all.begin() + from, all.begin() + from + count));
+    }
+    EXPECT_TRUE(in.read<float>("none", 0, 0).empty());
+    EXPECT_THROW(in.read<double>("run", 699999, 2), IoError);
+    EXPECT_THROW(in.read<double>("run", 700001, 0), IoError);
+    EXPECT_THROW(in.read<double>("square", 0, 5), IoError);
+    EXPECT_THROW(in.read<double>("nothing", 0, 1), IoError);
+}
+
 TEST(H5, EqualContentsGiveEqualBytes) {
     const test::TemporaryFile a("a.h5");
     const test::TemporaryFile b("b.h5");
