@@ -84,7 +84,7 @@ std::filesystem::path out_of(const Shared& s) {
 }
 
 int run_or_precompute(const Shared& s, bool plan, const Ranks& ranks) {
-    Progress progress(s.quiet || !ranks.leader());
+    Progress progress(s.quiet, !ranks.leader());
     const Config config = read_config(s.job, s.sets);
     JobOptions options;
     options.out = out_of(s);
@@ -93,7 +93,7 @@ int run_or_precompute(const Shared& s, bool plan, const Ranks& ranks) {
     options.dry_run = s.dry_run;
     options.plan = plan;
     if (const std::string warning = ranks.binding_warning(); !warning.empty()) {
-        progress.note("warning: " + warning);
+        progress.warn(warning);
     }
     const std::string text = run_job(config, options, ranks, progress);
     if (!s.quiet && ranks.leader()) fmt::print("{}", text);

@@ -166,7 +166,7 @@ void join_as_before(const Work& work, std::int64_t round, DisjointSets& sets) {
 std::int64_t make_parts(const Work& work, std::int64_t round) {
     const std::string pairs = named("pairs", round);
     make_shards(
-        work, "overlap", work.layout().tiles(),
+        work, "parts", work.layout().tiles(),
         [&](std::int64_t tile) { return work.passing(pairs, tile); },
         [&](std::int64_t tile, const std::filesystem::path& path) {
             h5::Writer file = shard_writer(path, work.key);

@@ -40,8 +40,9 @@ double resident_mb() {
 
 Moment Moment::now() { return {seconds(CLOCK_MONOTONIC), seconds(CLOCK_PROCESS_CPUTIME_ID)}; }
 
-Progress::Progress(bool quiet)
-    : quiet_(quiet),
+Progress::Progress(bool quiet, bool follower)
+    : quiet_(quiet || follower),
+      mute_(quiet),
       terminal_(isatty(STDERR_FILENO) != 0),
       begin_(Moment::now()),
       stage_begin_(begin_),
@@ -104,6 +105,11 @@ void Progress::show(std::int64_t done, bool last) {
 
 void Progress::note(const std::string& text) {
     if (!quiet_) fmt::print(stderr, "{}{}\n", terminal_ ? "\r\033[K" : "", text);
+}
+
+void Progress::warn(const std::string& text) {
+    if (mute_) return;
+    fmt::print(stderr, "{}warning: {}\n", terminal_ ? "\r\033[K" : "", text);
 }
 
 void Progress::finish() {

@@ -32,7 +32,8 @@ struct StageTime {
 // throws Stopped when a signal asked for an end.
 class Progress {
 public:
-    explicit Progress(bool quiet);
+    // `follower`: a rank that leaves the telling to the leader, but for its own warnings.
+    explicit Progress(bool quiet, bool follower = false);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -41,6 +42,7 @@ public:
     void stage(const std::string& name, std::int64_t total = 0);
     void advance(std::int64_t steps);
     void note(const std::string& text);  // a line of its own
+    void warn(const std::string& text);  // the same with "warning:", on all ranks; not when quiet
     void finish();                       // ends the last stage
     const std::vector<StageTime>& times() const { return times_; }
     double peak_rss_mb() const;  // highest resident memory of the process so far
@@ -50,6 +52,7 @@ private:
     void show(std::int64_t done, bool last);
 
     bool quiet_;
+    bool mute_;
     bool terminal_;
     Moment begin_;
     Moment stage_begin_;

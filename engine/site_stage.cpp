@@ -185,7 +185,7 @@ Site read_job_site(const Config& config, const Threads& threads, Progress& progr
         threads.for_each(n, 16, body);
     };
     SiteResult read = read_site(config.site.input, options);
-    for (const std::string& w : read.warnings) progress.note("warning: " + w);
+    for (const std::string& w : read.warnings) progress.warn(w);
     progress.note(site_text(read.site));
     if (!config.plan.required.empty()) {
         check_points(config.plan.required, read.site, forbidden_rings(config, read.site),

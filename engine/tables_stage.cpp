@@ -78,7 +78,7 @@ bool index_complete(const std::filesystem::path& path, const std::string& key, P
         check_shards(path);
         return true;
     } catch (const IoError& e) {
-        progress.note(fmt::format("warning: {} (made again)", e.what()));
+        note_made_again(e.what(), progress);
         std::error_code ignored;
         std::filesystem::remove(path, ignored);
         return false;

@@ -34,14 +34,23 @@ bool have_shard(const std::filesystem::path& path, const std::string& key, Progr
     std::string why;
     try {
         const h5::Reader file(path);
-        if (file.has_attribute("/", "complete") && file.text("/", "key") == key) return true;
-        why = path.string() + ": of another job";
+        if (!file.has_attribute("/", "complete") || file.text("/", "key") != key) {
+            why = path.string() + ": of another job";
+        } else if (file.text("/", "file") != path.filename().string()) {
+            why = fmt::format("{}: is {} under another name", path.string(), file.text("/", "file"));
+        } else {
+            return true;
+        }
     } catch (const IoError& e) {
         why = e.what();
     }
-    progress.note(fmt::format("warning: {} (made again)", why));
+    note_made_again(why, progress);
     std::filesystem::remove(path, error);
     return false;
+}
+
+void note_made_again(const std::string& why, Progress& progress) {
+    progress.warn(fmt::format("{}; it is made again", why.substr(0, why.find(';'))));
 }
 
 void make_shards(const Work& work, const std::string& stage, std::int64_t n,
@@ -66,6 +75,7 @@ void make_shard(const Work& work, const std::string& stage, const std::filesyste
 h5::Writer shard_writer(const std::filesystem::path& path, const std::string& key) {
     h5::Writer file(path);
     file.attribute("/", "key", key);
+    file.attribute("/", "file", path.filename().string());
     return file;
 }
 

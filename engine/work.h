@@ -39,9 +39,12 @@ struct Work {
     std::filesystem::path passing(const std::string& name, std::int64_t number) const;
 };
 
-// True when a shard is there, whole and of this job. What is damaged or of another job is named in
+// True when a shard (or an index, or site.h5) is there, whole, of this job and under its own name. What is damaged or of another job is named in
 // a note and gone afterwards.
 bool have_shard(const std::filesystem::path& path, const std::string& key, Progress& progress);
+
+// "warning: ...; it is made again", from an error's message up to its first semicolon.
+void note_made_again(const std::string& why, Progress& progress);
 
 // Makes the shards 0..n-1 that are missing, over all ranks. A barrier.
 void make_shards(const Work& work, const std::string& stage, std::int64_t n,

@@ -116,7 +116,7 @@ void write_coverage_index(const std::filesystem::path& path, const std::vector<W
         }
     }
     h5::Writer file(path);
-    write_header(file, "coverage table: candidates x pieces", info.key);
+    write_header(file, path, "coverage table: candidates x pieces", info.key);
     file.attribute("/", "summary", info.summary);
     write_crs(file, info.crs_wkt, info.origin);
     file.group("walls");

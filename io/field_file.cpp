@@ -15,7 +15,7 @@ std::uint64_t u(std::int64_t i) { return static_cast<std::uint64_t>(i); }
 void write_field_index(const std::filesystem::path& path, const FieldInfo& info,
                        const std::vector<std::filesystem::path>& tiles) {
     h5::Writer file(path);
-    write_header(file, "visibility field", info.key);
+    write_header(file, path, "visibility field", info.key);
     file.attribute("/", "Conventions", "CF-1.8");
     file.attribute("/", "summary", info.summary);
     write_crs(file, info.crs_wkt, info.origin);

@@ -64,8 +64,13 @@ hid_t type_of<std::int64_t>() {
     return H5T_STD_I64LE;
 }
 
+// No messages of the library's own; and nothing of it at the program's end, where it would fall over
+// a file that could not be closed because the disk is full.
 void be_quiet() {
-    static const herr_t once = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    static const herr_t once = [] {
+        H5dont_atexit();
+        return H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    }();
     (void)once;
 }
 

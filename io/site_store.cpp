@@ -92,6 +92,7 @@ void write_site_store(const std::filesystem::path& path, const std::string& key,
                       const std::vector<CellBits>& free_bits) {
     h5::Writer file(path);
     file.attribute("/", "key", key);
+    file.attribute("/", "file", path.filename().string());
     file.attribute("/", "crs_wkt", facts.crs_wkt);
     file.attribute("/", "summary", facts.summary);
     for (const auto& [name, value] :

@@ -8,7 +8,7 @@ namespace vfplan {
 
 void write_plan(const std::filesystem::path& path, const PlanTable& t) {
     h5::Writer file(path);
-    write_header(file, "stations and links", t.key);
+    write_header(file, path, "stations and links", t.key);
     file.attribute("/", "overlap_ratio", t.overlap_ratio);
     file.attribute("/", "overlap_threshold", t.threshold);
     const auto& s = t.plan.stations;

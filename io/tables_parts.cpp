@@ -17,7 +17,9 @@ std::uint8_t hex_value(char c) {
 
 }  // namespace
 
-void write_header(h5::Writer& file, const std::string& title, const std::string& key) {
+void write_header(h5::Writer& file, const std::filesystem::path& path, const std::string& title,
+                  const std::string& key) {
+    file.attribute("/", "file", path.filename().string());
     file.attribute("/", "title", title);
     file.attribute("/", "format_version", std::int64_t{2});
     file.attribute("/", "key", key);
@@ -84,7 +86,7 @@ void check_shards(const std::filesystem::path& index) {
         }
         if (h5::checked_hash(shard) != wanted) {
             throw IoError(fmt::format("{}: another shard than {} was made from; run the job again "
-                                      "with --fresh",
+                                      "and it is made anew",
                                       shard.string(), index.string()));
         }
     }

@@ -10,7 +10,8 @@
 
 namespace vfplan {
 
-void write_header(h5::Writer& file, const std::string& title, const std::string& key);
+void write_header(h5::Writer& file, const std::filesystem::path& path, const std::string& title,
+                  const std::string& key);
 void finish(h5::Writer& file);
 
 void write_crs(h5::Writer& file, const std::string& crs_wkt, const Vec2d& origin);
