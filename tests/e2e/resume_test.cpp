@@ -1,8 +1,10 @@
 // A job that is killed, stopped or damaged goes on and ends in the same bytes.
-#include <csignal>
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <iostream>
 #include <random>
+#include <sstream>
 
 #include "program.h"
 
