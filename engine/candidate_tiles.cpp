@@ -160,8 +160,7 @@ void make_seeds(const Work& work) {
             for (const std::int64_t c : ridges.joints) seeds.push_back({c, CandidateKind::joint});
             for (const TileRidges::Line& ridge : ridges.ridges) {
                 for (const std::int64_t c : points_without_joint(layout.grid, ridge)) {
-                    seeds.push_back(
-                        {c, ridge.ring ? CandidateKind::ring : CandidateKind::middle});
+                    seeds.push_back({c, ridge.ring ? CandidateKind::ring : CandidateKind::middle});
                 }
             }
             write_tile_candidates(work, path, seeds, covered_from(work, seeds, {}), 0);
@@ -205,8 +204,7 @@ void make_ridge_points(const Work& work) {
             for (const Candidate& c : of_user) {
                 if (layout.tile_of(layout.cell_at(c.at)) == tile) users.push_back(c.at);
             }
-            write_tile_candidates(work, path, found, covered_from(work, found, users),
-                                  falls_short);
+            write_tile_candidates(work, path, found, covered_from(work, found, users), falls_short);
         });
 }
 
@@ -222,55 +220,37 @@ std::vector<Candidate> points_of_user(const Work& work) {
     return out;
 }
 
-std::filesystem::path list_path(const Work& work, std::int64_t round) {
-    return work.passing("candidates", round);
+std::filesystem::path list_path(const Work& work, std::int64_t list) {
+    return work.passing("candidates", list);
 }
 
-void write_list(const Work& work, std::int64_t round, const std::vector<Candidate>& candidates) {
+void write_list(const Work& work, std::int64_t list, std::vector<Candidate> candidates,
+                std::int64_t parts) {
     const Layout& layout = work.layout();
-    const std::int64_t size_before =
-        round == 0 ? 0 : static_cast<std::int64_t>(
-                             h5::Reader(list_path(work, round - 1)).dims("x").at(0));
-    struct Entry {
-        std::int64_t patch;
-        Candidate candidate;
-        std::int32_t before;
-    };
-    std::vector<Entry> entries;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        const auto n = static_cast<std::int32_t>(i);
-        entries.push_back({layout.patch_of(layout.cell_at(candidates[i].at)), candidates[i],
-                           n < size_before ? n : -1});
-    }
-    std::stable_sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
-        const Candidate& p = a.candidate;
-        const Candidate& q = b.candidate;
-        return std::tuple(a.patch, p.at.y(), p.at.x(), p.kind) <
-               std::tuple(b.patch, q.at.y(), q.at.x(), q.kind);
-    });
-    const auto of_user = [](const Candidate& c) {
-        return c.kind == CandidateKind::required || c.kind == CandidateKind::existing;
-    };
-    entries.erase(std::unique(entries.begin(), entries.end(),
-                              [&](const Entry& a, const Entry& b) {
-                                  return a.candidate.at == b.candidate.at &&
-                                         !of_user(a.candidate) && !of_user(b.candidate);
-                              }),
-                  entries.end());
+    const auto patch_of = [&](const Candidate& c) { return layout.patch_of(layout.cell_at(c.at)); };
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [&](const Candidate& a, const Candidate& b) {
+                         return std::tuple(patch_of(a), a.at.y(), a.at.x(), a.kind) <
+                                std::tuple(patch_of(b), b.at.y(), b.at.x(), b.kind);
+                     });
+    candidates.erase(
+        std::unique(candidates.begin(), candidates.end(),
+                    [](const Candidate& a, const Candidate& b) { return a.at == b.at; }),
+        candidates.end());
     std::vector<std::int64_t> begin(at(layout.patches()) + 1, 0);
-    for (const Entry& e : entries) ++begin[at(e.patch) + 1];
+    for (const Candidate& c : candidates) ++begin[at(patch_of(c)) + 1];
     for (std::size_t p = 0; p + 1 < begin.size(); ++p) begin[p + 1] += begin[p];
     constexpr std::uint64_t chunk = 1U << 12;
-    h5::Writer file = shard_writer(list_path(work, round), work.key);
+    h5::Writer file = shard_writer(list_path(work, list), work.key);
+    file.attribute("/", "parts", parts);
     file.write("patch_begin", begin);
     const auto write = [&](const char* name, auto example, auto&& value) {
-        file.write(name, column<decltype(example)>(entries, value), {}, chunk);
+        file.write(name, column<decltype(example)>(candidates, value), {}, chunk);
     };
-    write("x", double{}, [](const Entry& e) { return e.candidate.at.x(); });
-    write("y", double{}, [](const Entry& e) { return e.candidate.at.y(); });
-    write("cell", std::int64_t{}, [](const Entry& e) { return e.candidate.cell; });
-    write("kind", std::uint8_t{}, [](const Entry& e) { return e.candidate.kind; });
-    write("before", std::int32_t{}, [](const Entry& e) { return e.before; });
+    write("x", double{}, [](const Candidate& c) { return c.at.x(); });
+    write("y", double{}, [](const Candidate& c) { return c.at.y(); });
+    write("cell", std::int64_t{}, [](const Candidate& c) { return c.cell; });
+    write("kind", std::uint8_t{}, [](const Candidate& c) { return c.kind; });
     finish_shard(file);
 }
 
@@ -291,13 +271,18 @@ std::vector<Candidate> read_some(const h5::Reader& file, std::uint64_t from, std
 
 }  // namespace
 
-std::vector<Candidate> read_list(const Work& work, std::int64_t round) {
-    const h5::Reader file(list_path(work, round));
-    return read_some(file, 0, file.dims("x").at(0));
+std::int64_t list_size(const Work& work, std::int64_t list) {
+    return static_cast<std::int64_t>(h5::Reader(list_path(work, list)).dims("x").at(0));
 }
 
-ListPart read_list(const Work& work, std::int64_t round, const Window& window) {
-    const h5::Reader file(list_path(work, round));
+std::vector<Candidate> read_list(const Work& work, std::int64_t list, std::int64_t from,
+                                 std::int64_t count) {
+    return read_some(h5::Reader(list_path(work, list)), static_cast<std::uint64_t>(from),
+                     static_cast<std::uint64_t>(count));
+}
+
+ListPart read_list(const Work& work, std::int64_t list, const Window& window) {
+    const h5::Reader file(list_path(work, list));
     const auto begin = file.read<std::int64_t>("patch_begin");
     ListPart out;
     const std::vector<std::int64_t> patches = work.layout().patches_in(window);
@@ -312,10 +297,15 @@ ListPart read_list(const Work& work, std::int64_t round, const Window& window) {
         const std::vector<Candidate> some = read_some(file, static_cast<std::uint64_t>(from),
                                                       static_cast<std::uint64_t>(to - from));
         out.candidates.insert(out.candidates.end(), some.begin(), some.end());
-        const auto before = file.read<std::int32_t>("before", static_cast<std::uint64_t>(from),
-                                                    static_cast<std::uint64_t>(to - from));
-        out.before.insert(out.before.end(), before.begin(), before.end());
         i = k;
+    }
+    const std::vector<Candidate> users = points_of_user(work);
+    for (std::size_t i = 0; i < users.size(); ++i) {
+        const std::int64_t patch = work.layout().patch_of(work.layout().cell_at(users[i].at));
+        if (!std::binary_search(patches.begin(), patches.end(), patch)) continue;
+        out.number.push_back(
+            static_cast<std::int32_t>(begin.back() + static_cast<std::int64_t>(i)));
+        out.candidates.push_back(users[i]);
     }
     return out;
 }

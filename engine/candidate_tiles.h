@@ -1,8 +1,8 @@
 // Candidates from the skeleton, tile by tile (SPEC section 3): joints, ridge points, ridge ends,
 // points inserted for overlap, and rescue points.
 //
-// A row costs some twenty microseconds and a county's rows are gigabytes, so no phase keeps rows: it
-// keeps which pieces they cover, and looks again where it needs more.
+// A row costs some twenty microseconds and a county's rows are gigabytes, so no phase keeps rows:
+// it keeps which pieces they cover, and looks again where it needs more.
 #pragma once
 
 #include "engine/work.h"
@@ -20,8 +20,8 @@ using CoveredPieces = std::vector<bool>;
 void make_seeds(const Work& work);
 
 // work/ridges-TILE.h5: ends of ridges that cover what no seed does; along every ridge, while two
-// neighbours overlap less than the threshold, the arc's middle, down to 2 cells or depth 16; and the
-// user's points.
+// neighbours overlap less than the threshold, the arc's middle, down to 2 cells or depth 16; and
+// the user's points.
 void make_ridge_points(const Work& work);
 
 // work/rescue-TILE.h5: for every piece of the tile that nothing covers yet, the best cell that sees
@@ -29,18 +29,23 @@ void make_ridge_points(const Work& work);
 // pieces.
 void make_rescue(const Work& work);
 
-// work/candidates-ROUND.h5, by patch, then row, then column; points of the user in their patch too.
-std::filesystem::path list_path(const Work& work, std::int64_t round);
-// Those of the round before come first, as they stand there; vf_rad is not kept.
-void write_list(const Work& work, std::int64_t round, const std::vector<Candidate>& candidates);
-std::vector<Candidate> read_list(const Work& work, std::int64_t round);
-// Those in a window's patches, with their numbers, ascending.
+// work/candidates-LIST.h5: candidates by patch, then row, then column; vf_rad is not kept. Points
+// of the user are in no list: they are numbered behind it, in the order of the job.
+inline constexpr std::int64_t found_list = 0;   // before links
+inline constexpr std::int64_t linked_list = 1;  // with them
+std::filesystem::path list_path(const Work& work, std::int64_t list);
+// `parts` of the overlap graph is kept with it.
+void write_list(const Work& work, std::int64_t list, std::vector<Candidate> candidates,
+                std::int64_t parts = 0);
+std::int64_t list_size(const Work& work, std::int64_t list);  // without the user's points
+std::vector<Candidate> read_list(const Work& work, std::int64_t list, std::int64_t from,
+                                 std::int64_t count);
+// Those in a window's patches and the user's points there, with their numbers, ascending.
 struct ListPart {
     std::vector<std::int32_t> number;
-    std::vector<std::int32_t> before;  // number in the list of the round before; -1: not in it
     std::vector<Candidate> candidates;
 };
-ListPart read_list(const Work& work, std::int64_t round, const Window& window);
+ListPart read_list(const Work& work, std::int64_t list, const Window& window);
 
 // What happened on the way.
 struct CandidateReport {

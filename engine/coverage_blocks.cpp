@@ -10,17 +10,15 @@
 namespace vfplan {
 namespace {
 
-constexpr std::int64_t rows_in_block = 4096;
+constexpr std::int64_t rows_in_block = 2048;
 
-bool of_user(const Candidate& c) {
-    return c.kind == CandidateKind::required || c.kind == CandidateKind::existing;
-}
-
-// In the order of the table: by patch, the user's points last and as given.
-std::vector<Candidate> in_table_order(const Work& work, std::int64_t list) {
-    std::vector<Candidate> out = read_list(work, list);
-    std::erase_if(out, of_user);
-    for (const Candidate& c : points_of_user(work)) out.push_back(c);
+// Candidates numbered [from, to): those of the list, then the user's points.
+std::vector<Candidate> numbered(const Work& work, std::int64_t from, std::int64_t to) {
+    const std::int64_t listed = list_size(work, linked_list);
+    const std::int64_t first = std::min(from, listed);
+    std::vector<Candidate> out = read_list(work, linked_list, first, std::min(to, listed) - first);
+    const std::vector<Candidate> users = points_of_user(work);
+    for (std::int64_t i = std::max(from, listed); i < to; ++i) out.push_back(users[at(i - listed)]);
     return out;
 }
 
@@ -41,8 +39,7 @@ void fill_vf(const Work& work, std::vector<Candidate>& some,
         const FieldWindow field = read_field_window(work.dir, layout, layout.patch_window(patch));
         for (; i < by_patch.size() && layout.patch_of(some[by_patch[i]].cell) == patch; ++i) {
             Candidate& c = some[by_patch[i]];
-            c.vf_rad =
-                field.vf_rad[field.index(layout.grid.ix(c.cell), layout.grid.iy(c.cell))];
+            c.vf_rad = field.vf_rad[field.index(layout.grid.ix(c.cell), layout.grid.iy(c.cell))];
         }
     }
 }
@@ -67,17 +64,15 @@ void make_block(const Work& work, std::vector<Candidate> some, const std::filesy
 
 }  // namespace
 
-std::int64_t make_coverage_blocks(const Work& work, std::int64_t list) {
-    const std::vector<Candidate> all = in_table_order(work, list);
-    const auto n = static_cast<std::int64_t>(all.size());
+std::int64_t make_coverage_blocks(const Work& work) {
+    const std::int64_t n =
+        list_size(work, linked_list) + static_cast<std::int64_t>(points_of_user(work).size());
     const std::int64_t blocks = (n + rows_in_block - 1) / rows_in_block;
     make_shards(
         work, "coverage", blocks, [&](std::int64_t b) { return work.kept("coverage", b); },
         [&](std::int64_t b, const std::filesystem::path& path) {
-            make_block(work,
-                       {all.begin() + b * rows_in_block,
-                        all.begin() + std::min(n, (b + 1) * rows_in_block)},
-                       path);
+            const std::int64_t from = b * rows_in_block;
+            make_block(work, numbered(work, from, std::min(n, from + rows_in_block)), path);
         });
     return blocks;
 }

@@ -8,7 +8,7 @@
 namespace vfplan {
 
 // Makes all blocks from the last list of candidates (SPEC section 4). Returns their number.
-std::int64_t make_coverage_blocks(const Work& work, std::int64_t list);
+std::int64_t make_coverage_blocks(const Work& work);
 
 // coverage.h5: the index over the blocks, and what is small enough to stand in one place. `summary`
 // is kept in it for summary.json.

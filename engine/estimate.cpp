@@ -17,7 +17,7 @@
 namespace vfplan {
 namespace {
 
-constexpr std::int32_t square_cells = 320;  // side of a square that is tried
+constexpr double square_cells = 320;  // side of a square that is tried, at least
 constexpr int squares_tried = 6;
 
 // A folder for temporary files that goes with its object.
@@ -27,9 +27,10 @@ public:
         std::string name =
             (std::filesystem::temp_directory_path() / "vfplan-estimate-XXXXXX").string();
         if (mkdtemp(name.data()) == nullptr) {
-            throw IoError(fmt::format("{}: the folder cannot be created; free space there or set "
-                                      "TMPDIR",
-                                      name));
+            throw IoError(
+                fmt::format("{}: the folder cannot be created; free space there or set "
+                            "TMPDIR",
+                            name));
         }
         path_ = name;
     }
@@ -52,7 +53,9 @@ struct Squares {
     Vec2d origin{0, 0};
     std::vector<double> weight;  // wall length, m
 
-    Squares(const Site& site, double cell_m) : side_m(square_cells * cell_m) {
+    // Two ranges wide at least: in less, what lies at the edge would be most of it.
+    Squares(const Site& site, double cell_m, double range_m)
+        : side_m(std::max(square_cells * cell_m, 2 * range_m)) {
         origin = site.extent.min;
         const Vec2d size = site.extent.size();
         columns = static_cast<std::int64_t>(std::ceil(size.x() / side_m));
@@ -101,9 +104,8 @@ Site part_of_site(const Site& site, const Box& box, double range_m) {
         return lo.x() <= around.max.x() && hi.x() >= around.min.x() && lo.y() <= around.max.y() &&
                hi.y() >= around.min.y();
     };
-    std::erase_if(out.walls, [&](const Wall& w) {
-        return !meets(w.a.cwiseMin(w.b), w.a.cwiseMax(w.b));
-    });
+    std::erase_if(out.walls,
+                  [&](const Wall& w) { return !meets(w.a.cwiseMin(w.b), w.a.cwiseMax(w.b)); });
     std::erase_if(out.free_region, [&](const Ring& ring) {
         Box b;
         for (const Vec2d& p : ring) b.add(p);
@@ -147,7 +149,7 @@ void try_part(const Config& config, const Site& site, double wall_length_m, cons
     std::filesystem::create_directories(folder.path() / "work");
     const Moment begin = Moment::now();
     store_site(part, "estimate", site, threads, folder.path() / "work" / "site.h5");
-    make_tables(part, folder.path(), "estimate", threads, alone, quiet, true);
+    make_tables(part, folder.path(), "estimate", threads, alone, quiet);
     sum.cpu_s += Moment::now().cpu_s - begin.cpu_s;
     const CoverageTables tables = read_coverage(folder.path() / "coverage.h5");
     const FieldFile field(folder.path() / "field.h5");
@@ -170,6 +172,34 @@ double plan_memory_mb(const Estimate& e, double walls) {
            1e6;
 }
 
+bool wanted(const Config& config, const char* format) {
+    const auto& f = config.output.formats;
+    return std::find(f.begin(), f.end(), format) != f.end();
+}
+
+// Files beside the shards: bytes of a line or a row each, as they turn out on real sites.
+double files_mb(const Config& config, const Estimate& e, double walls) {
+    const auto pieces = static_cast<double>(e.pieces);
+    const auto candidates = static_cast<double>(e.candidates);
+    const auto pixels = static_cast<double>(config.output.map_px);
+    double bytes = 8 * pieces + 25 * candidates + 40 * walls;  // coverage.h5 and plan.h5
+    if (wanted(config, "csv")) bytes += 62 * pieces + 30 * candidates;
+    if (wanted(config, "geojson")) bytes += 80 * candidates;
+    if (wanted(config, "gpkg")) bytes += 1.5e5 + 190 * pieces + 120 * candidates;
+    if (wanted(config, "png")) bytes += 0.8 * pixels * pixels;
+    return bytes / 1e6;
+}
+
+// The picture is drawn by one thread, the package filled by one.
+double files_s(const Config& config, const Estimate& e) {
+    const auto pieces = static_cast<double>(e.pieces);
+    const auto pixels = static_cast<double>(config.output.map_px);
+    double seconds = 1e-6 * pieces + 1.5e-9 * static_cast<double>(e.cells);
+    if (wanted(config, "gpkg")) seconds += 0.05 + 1e-5 * pieces;
+    if (wanted(config, "png")) seconds += 2e-7 * pixels * pixels + 1e-6 * pieces;
+    return seconds;
+}
+
 double tables_memory_mb(const Config& config, const Estimate& e, double entries_per_candidate,
                         const Threads& threads) {
     const double tile = static_cast<double>(config.field.tile_cells);
@@ -178,13 +208,17 @@ double tables_memory_mb(const Config& config, const Estimate& e, double entries_
                  std::pow(tile + 2 * config.scanner.range_max_m / config.field.cell_m + 100, 2));
     const double share = cells / static_cast<double>(std::max<std::int64_t>(1, e.cells));
     const double rows = static_cast<double>(e.candidates) * share * entries_per_candidate * 24;
-    return threads.count() * (cells * 32 + rows) / 1e6;
+    const double lanes = std::min<double>(threads.count(), std::ceil(1 / share));
+    return lanes * (cells * 32 + rows) / 1e6;
 }
 
 }  // namespace
 
 Estimate estimate(const Config& config, const Threads& threads, Progress& progress) {
-    constexpr double base_mb = 60;
+    // Libraries; and the picture in memory, a few times over.
+    const double base_mb =
+        65 + (wanted(config, "png") ? 12e-6 * std::pow(static_cast<double>(config.output.map_px), 2)
+                                    : 0);
     const Moment begin = Moment::now();
     const Site site = read_job_site(config, threads, progress);
     const double site_s = Moment::now().wall_s - begin.wall_s;
@@ -197,7 +231,7 @@ Estimate estimate(const Config& config, const Threads& threads, Progress& progre
     e.pieces = cut_into_pieces(site.walls, config.coverage.partition_m).size();
     const double site_mb = progress.peak_rss_mb();
     progress.stage("sample");
-    const Squares squares(site, config.field.cell_m);
+    const Squares squares(site, config.field.cell_m, config.scanner.range_max_m);
     double wall_length_m = 0;
     for (const double w : squares.weight) wall_length_m += w;
     const std::vector<std::size_t> chosen = squares.sample();
@@ -207,8 +241,7 @@ Estimate estimate(const Config& config, const Threads& threads, Progress& progre
         try_part(config, site, wall_length_m, threads, s);
     } else {
         for (const std::size_t square : chosen) {
-            try_part(config,
-                     part_of_site(site, squares.box(square), config.scanner.range_max_m),
+            try_part(config, part_of_site(site, squares.box(square), config.scanner.range_max_m),
                      squares.weight[square], threads, s);
         }
     }
@@ -220,13 +253,12 @@ Estimate estimate(const Config& config, const Threads& threads, Progress& progre
     const auto walls = static_cast<double>(site.walls.size());
     e.memory_mb = std::max({site_mb, base_mb + tables_memory_mb(config, e, per_candidate, threads),
                             base_mb + plan_memory_mb(e, walls)});
-    e.disk_mb = (s.field_bytes + s.coverage_bytes) * scale / 1e6 +
-                (85.0 * static_cast<double>(e.pieces) + 60.0 * static_cast<double>(e.candidates) +
-                 20.0 * walls) /
-                    1e6;
+    e.disk_mb = (s.field_bytes + s.coverage_bytes) * scale / 1e6 + files_mb(config, e, walls);
     e.working_mb = s.working_bytes * scale / 1e6;
-    const double plan_s = 4e-7 * static_cast<double>(e.entries);
-    e.wall_s = site_s + s.cpu_s * scale / threads.count() + plan_s + 0.5;
+    const double plan_s = 3.5e-7 * static_cast<double>(e.entries);
+    constexpr double serial = 0.12;  // of the tables: what the leader does alone
+    e.wall_s = site_s + s.cpu_s * scale * (serial + (1 - serial) / threads.count()) + plan_s +
+               files_s(config, e) + 0.2;
     progress.finish();
     return e;
 }

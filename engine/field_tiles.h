@@ -1,5 +1,5 @@
-// The field, tile by tile: shards/field-SIDE-NUMBER.h5 with the visibility field (`vf`) and the links
-// between cells that walls close (`closed`).
+// The field, tile by tile: shards/field-SIDE-NUMBER.h5 with the visibility field (`vf`) and the
+// links between cells that walls close (`closed`).
 #pragma once
 
 #include "engine/work.h"

@@ -4,8 +4,8 @@
 
 namespace vfplan {
 
-Flood::Flood(const Grid& grid, const Raster<std::uint8_t>& free,
-             const Raster<std::uint8_t>& closed, std::int32_t most)
+Flood::Flood(const Grid& grid, const Raster<std::uint8_t>& free, const Raster<std::uint8_t>& closed,
+             std::int32_t most)
     : grid_(grid),
       free_(free),
       closed_(closed),

@@ -1,7 +1,5 @@
 #include "engine/links.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -18,10 +16,6 @@
 namespace vfplan {
 namespace {
 
-constexpr std::int64_t rounds_most = 3;
-
-std::string named(const char* what, std::int64_t round) { return fmt::format("{}{}", what, round); }
-
 // The shortest way between two candidates of different parts, over the cells where floods from both
 // meet.
 struct Way {
@@ -33,7 +27,9 @@ struct Way {
     CellPath cells;  // from candidate to candidate
 
     std::pair<std::int32_t, std::int32_t> parts() const { return {part[0], part[1]}; }
-    std::pair<std::int32_t, std::int32_t> candidates() const { return {candidate[0], candidate[1]}; }
+    std::pair<std::int32_t, std::int32_t> candidates() const {
+        return {candidate[0], candidate[1]};
+    }
     auto order() const { return std::tuple(length, meets_at, direction); }
 };
 
@@ -103,25 +99,24 @@ std::vector<Way> read_ways(const std::filesystem::path& path) {
 }
 
 // The ways that meet in a tile's cells.
-std::vector<Way> ways_of_tile(const Work& work, std::int64_t round, std::int64_t tile) {
+std::vector<Way> ways_of_tile(const Work& work, std::int64_t tile) {
     const Layout& layout = work.layout();
     const Window core = layout.tile_window(tile);
     const double reach_cells =
         ways_reach_ranges * work.config.scanner.range_max_m / layout.grid.cell_m;
     const auto margin = static_cast<std::int32_t>(std::ceil(reach_cells)) + 1;
     const Window around = core.grown(margin, layout.grid);
-    const ListPart list = read_list(work, round, around);
+    const ListPart list = read_list(work, found_list, around);
     std::vector<std::int32_t> part(list.number.size());
     for (std::size_t i = 0; i < part.size();) {
         std::size_t k = i + 1;
         while (k < part.size() && list.number[k] == list.number[k - 1] + 1) ++k;
-        const auto some =
-            read_parts(work, round, list.number[i], static_cast<std::int64_t>(k - i));
+        const auto some = read_parts(work, list.number[i], static_cast<std::int64_t>(k - i));
         std::copy(some.begin(), some.end(), part.begin() + static_cast<std::ptrdiff_t>(i));
         i = k;
     }
-    if (part.empty() || std::all_of(part.begin(), part.end(),
-                                    [&](std::int32_t p) { return p == part.front(); })) {
+    if (part.empty() ||
+        std::all_of(part.begin(), part.end(), [&](std::int32_t p) { return p == part.front(); })) {
         return {};
     }
     const FieldWindow field = read_field_window(work.dir, layout, around);
@@ -269,15 +264,15 @@ void bridge_ways(const Work& work, const std::vector<Way>& ways, std::size_t fro
 
 constexpr std::size_t ways_at_once = 64;  // in one shard of bridges
 
-// Takes bridges, the shortest ways first, while they join what is apart.
-std::vector<Candidate> chosen_bridges(const Work& work, std::int64_t round, std::int64_t parts,
-                                      const std::vector<Way>& ways) {
+// Takes bridges, the shortest ways first, while they join what is apart. `parts`: how many there
+// are, before and after.
+std::vector<Candidate> chosen_bridges(const Work& work, const std::vector<Way>& ways,
+                                      std::int64_t& parts) {
     std::vector<std::uint8_t> good;
     std::vector<std::vector<Candidate>> stands;
     const std::size_t shards = (ways.size() + ways_at_once - 1) / ways_at_once;
     for (std::size_t shard = 0; shard < shards; ++shard) {
-        const h5::Reader file(
-            work.passing(named("bridges", round), static_cast<std::int64_t>(shard)));
+        const h5::Reader file(work.passing("bridges", static_cast<std::int64_t>(shard)));
         const auto some = file.read<std::uint8_t>("good");
         good.insert(good.end(), some.begin(), some.end());
         const auto begin = file.read<std::int64_t>("begin");
@@ -304,67 +299,65 @@ std::vector<Candidate> chosen_bridges(const Work& work, std::int64_t round, std:
     for (const std::size_t i : order) {
         if (sets.together(ways[i].part[0], ways[i].part[1])) continue;
         sets.merge(ways[i].part[0], ways[i].part[1]);
+        --parts;
         out.insert(out.end(), stands[i].begin(), stands[i].end());
     }
     return out;
 }
 
-// One round; false when it added nothing.
-bool link_round(const Work& work, std::int64_t round, std::int64_t parts) {
-    const std::string of_tiles = named("ways", round);
+std::filesystem::path chosen_path(const Work& work) { return work.passing("chosen", 0); }
+
+void make_ways(const Work& work) {
     make_shards(
         work, "ways", work.layout().tiles(),
-        [&](std::int64_t tile) { return work.passing(of_tiles, tile); },
+        [&](std::int64_t tile) { return work.passing("ways", tile); },
         [&](std::int64_t tile, const std::filesystem::path& path) {
             h5::Writer file = shard_writer(path, work.key);
-            write_ways(file, ways_of_tile(work, round, tile));
+            write_ways(file, ways_of_tile(work, tile));
             finish_shard(file);
         });
-    const std::filesystem::path chosen = work.passing(named("chosen", round), 0);
-    make_shard(work, "ways", chosen, [&](const std::filesystem::path& path) {
+    make_shard(work, "ways", chosen_path(work), [&](const std::filesystem::path& path) {
         std::vector<Way> all;
         for (std::int64_t tile = 0; tile < work.layout().tiles(); ++tile) {
-            for (Way& way : read_ways(work.passing(of_tiles, tile))) all.push_back(std::move(way));
+            for (Way& way : read_ways(work.passing("ways", tile))) all.push_back(std::move(way));
         }
         h5::Writer file = shard_writer(path, work.key);
         write_ways(file, shortest_few(std::move(all)));
         finish_shard(file);
     });
-    const std::vector<Way> ways = read_ways(chosen);
-    const std::string bridges = named("bridges", round);
-    make_shards(
-        work, "links", static_cast<std::int64_t>((ways.size() + ways_at_once - 1) / ways_at_once),
-        [&](std::int64_t shard) { return work.passing(bridges, shard); },
-        [&](std::int64_t shard, const std::filesystem::path& path) {
-            const std::size_t from = at(shard) * ways_at_once;
-            bridge_ways(work, ways, from, std::min(ways.size(), from + ways_at_once), path);
-        });
-    const std::filesystem::path list = list_path(work, round + 1);
-    make_shard(work, "links", list, [&](const std::filesystem::path&) {
-        std::vector<Candidate> candidates = read_list(work, round);
-        std::vector<std::int64_t> taken;
-        for (const Candidate& c : candidates) taken.push_back(c.cell);
-        std::sort(taken.begin(), taken.end());
-        for (const Candidate& c : chosen_bridges(work, round, parts, ways)) {
-            if (c.cell >= 0 && std::binary_search(taken.begin(), taken.end(), c.cell)) continue;
-            candidates.push_back(c);
-        }
-        write_list(work, round + 1, candidates);
-    });
-    const auto size = [&](std::int64_t n) { return h5::Reader(list_path(work, n)).dims("x").at(0); };
-    return size(round + 1) > size(round);
 }
 
 }  // namespace
 
-std::int64_t make_links(const Work& work, CandidateReport& report) {
-    report.parts = report.parts_before_links = make_parts(work, 0);
-    std::int64_t round = 0;
-    while (round < rounds_most && report.parts > 1 && link_round(work, round, report.parts)) {
-        ++round;
-        report.parts = make_parts(work, round);
+void make_links(const Work& work, CandidateReport& report) {
+    report.parts_before_links = make_parts(work);
+    std::vector<Way> ways;
+    if (report.parts_before_links > 1) {
+        make_ways(work);
+        ways = read_ways(chosen_path(work));
     }
-    return round;
+    make_shards(
+        work, "links", static_cast<std::int64_t>((ways.size() + ways_at_once - 1) / ways_at_once),
+        [&](std::int64_t shard) { return work.passing("bridges", shard); },
+        [&](std::int64_t shard, const std::filesystem::path& path) {
+            const std::size_t from = at(shard) * ways_at_once;
+            bridge_ways(work, ways, from, std::min(ways.size(), from + ways_at_once), path);
+        });
+    const std::filesystem::path list = list_path(work, linked_list);
+    make_shard(work, "links", list, [&](const std::filesystem::path&) {
+        std::vector<Candidate> candidates =
+            read_list(work, found_list, 0, list_size(work, found_list));
+        std::vector<std::int64_t> taken;
+        for (const Candidate& c : candidates) taken.push_back(c.cell);
+        std::sort(taken.begin(), taken.end());
+        std::int64_t parts = report.parts_before_links;
+        for (const Candidate& c : chosen_bridges(work, ways, parts)) {
+            if (c.cell >= 0 && std::binary_search(taken.begin(), taken.end(), c.cell)) continue;
+            candidates.push_back(c);
+        }
+        write_list(work, linked_list, candidates, parts);
+    });
+    report.parts = static_cast<std::int64_t>(h5::Reader(list).number("/", "parts"));
 }
 
 }  // namespace vfplan

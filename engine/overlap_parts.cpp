@@ -1,12 +1,9 @@
 #include "engine/overlap_parts.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <set>
 #include <span>
 
 #include "engine/disjoint_sets.h"
@@ -16,7 +13,7 @@
 namespace vfplan {
 namespace {
 
-std::string named(const char* what, std::int64_t round) { return fmt::format("{}{}", what, round); }
+std::filesystem::path parts_path(const Work& work) { return work.passing("parts", 0); }
 
 // Who sees a piece, for the pieces that some rows see.
 class Viewers {
@@ -58,13 +55,11 @@ private:
 struct Near {
     std::int32_t number;
     Vec2d eye;
-    bool own;    // in the tile
-    bool fresh;  // not in the list of the round before
+    bool own;  // in the tile
 };
 
-// Candidates from which something may be seen that one of the tile's sees too. From the second round
-// on only what may share something with a fresh one: the others' pairs are known.
-std::vector<Near> candidates_near(const Work& work, std::int64_t round, std::int64_t tile) {
+// Candidates from which something may be seen that one of the tile's sees too.
+std::vector<Near> candidates_near(const Work& work, std::int64_t tile) {
     const Layout& layout = work.layout();
     const Grid& grid = layout.grid;
     const Window core = layout.tile_window(tile);
@@ -72,39 +67,22 @@ std::vector<Near> candidates_near(const Work& work, std::int64_t round, std::int
     const double far_m = 2 * work.config.scanner.range_max_m + work.config.coverage.partition_m;
     const auto margin = static_cast<std::int32_t>(std::ceil(far_m / grid.cell_m)) + 1;
     const Window around = core.grown(margin, grid);
-    const ListPart list = read_list(work, round, around);
+    const ListPart list = read_list(work, found_list, around);
     std::vector<Near> out;
     for (std::size_t i = 0; i < list.number.size(); ++i) {
         const std::int64_t cell = layout.cell_at(list.candidates[i].at);
         const std::int32_t x = grid.ix(cell);
         const std::int32_t y = grid.iy(cell);
         if (!around.contains(x, y)) continue;
-        out.push_back({list.number[i], list.candidates[i].at, core.contains(x, y),
-                       round == 0 || list.before[i] < 0});
+        out.push_back({list.number[i], list.candidates[i].at, core.contains(x, y)});
     }
-    if (round == 0) return out;
-    // Marks the squares around fresh ones, as wide as two can be apart.
-    const auto square = [&](const Vec2d& p) {
-        return std::pair(static_cast<std::int64_t>(std::floor(p.x() / far_m)),
-                         static_cast<std::int64_t>(std::floor(p.y() / far_m)));
-    };
-    std::set<std::pair<std::int64_t, std::int64_t>> marked;
-    for (const Near& n : out) {
-        if (!n.fresh) continue;
-        const auto [x, y] = square(n.eye);
-        for (std::int64_t dx = -1; dx <= 1; ++dx) {
-            for (std::int64_t dy = -1; dy <= 1; ++dy) marked.emplace(x + dx, y + dy);
-        }
-    }
-    std::erase_if(out, [&](const Near& n) { return !marked.contains(square(n.eye)); });
     return out;
 }
 
 // Pairs of candidates that overlap enough, one of them in the tile: of all such pairs so many that
 // they connect what all of them connect. Numbers of the list, two and two.
-std::vector<std::int32_t> connecting_pairs(const Work& work, std::int64_t round,
-                                           std::int64_t tile) {
-    const std::vector<Near> near = candidates_near(work, round, tile);
+std::vector<std::int32_t> connecting_pairs(const Work& work, std::int64_t tile) {
+    const std::vector<Near> near = candidates_near(work, tile);
     std::vector<Vec2d> eyes;
     for (const Near& n : near) eyes.push_back(n.eye);
     const std::vector<OverlapRow> rows = work.scenes.overlap_rows(work.threads, eyes);
@@ -125,11 +103,10 @@ std::vector<std::int32_t> connecting_pairs(const Work& work, std::int64_t round,
                 shared.take([&](std::int32_t other, double length_m) {
                     const Near& a = near[at(i)];
                     const Near& b = near[at(other)];
-                    if ((!a.own && !b.own) || (!a.fresh && !b.fresh)) return;
-                    const double o =
-                        angles ? overlap(work.ratio(), rows[at(other)], row)
-                               : overlap(work.ratio(), rows[at(other)].total, row.total,
-                                         SeenJointly{length_m, 0, 0});
+                    if (!a.own && !b.own) return;
+                    const double o = angles ? overlap(work.ratio(), rows[at(other)], row)
+                                            : overlap(work.ratio(), rows[at(other)].total,
+                                                      row.total, SeenJointly{length_m, 0, 0});
                     if (o > 0 && o >= work.threshold()) found[at(i)].push_back(other);
                 });
                 std::sort(found[at(i)].begin(), found[at(i)].end());
@@ -148,38 +125,23 @@ std::vector<std::int32_t> connecting_pairs(const Work& work, std::int64_t round,
     return pairs;
 }
 
-// Joins what was joined in the round before.
-void join_as_before(const Work& work, std::int64_t round, DisjointSets& sets) {
-    const std::vector<std::int32_t> part = read_parts(work, round - 1);
-    const auto before = h5::Reader(list_path(work, round)).read<std::int32_t>("before");
-    std::vector<std::int32_t> first(part.size(), -1);  // candidate of each part
-    for (std::size_t c = 0; c < before.size(); ++c) {
-        if (before[c] < 0) continue;
-        std::int32_t& f = first[at(part[at(before[c])])];
-        if (f < 0) f = static_cast<std::int32_t>(c);
-        sets.merge(f, static_cast<std::int32_t>(c));
-    }
-}
-
 }  // namespace
 
-std::int64_t make_parts(const Work& work, std::int64_t round) {
-    const std::string pairs = named("pairs", round);
+std::int64_t make_parts(const Work& work) {
     make_shards(
         work, "parts", work.layout().tiles(),
-        [&](std::int64_t tile) { return work.passing(pairs, tile); },
+        [&](std::int64_t tile) { return work.passing("pairs", tile); },
         [&](std::int64_t tile, const std::filesystem::path& path) {
             h5::Writer file = shard_writer(path, work.key);
-            file.write("pair", connecting_pairs(work, round, tile));
+            file.write("pair", connecting_pairs(work, tile));
             finish_shard(file);
         });
-    const std::filesystem::path whole = work.passing(named("parts", round), 0);
-    make_shard(work, "parts", whole, [&](const std::filesystem::path& path) {
-        const auto n = static_cast<std::int64_t>(h5::Reader(list_path(work, round)).dims("x").at(0));
+    make_shard(work, "parts", parts_path(work), [&](const std::filesystem::path& path) {
+        const std::int64_t n =
+            list_size(work, found_list) + static_cast<std::int64_t>(points_of_user(work).size());
         DisjointSets sets(n);
-        if (round > 0) join_as_before(work, round, sets);
         for (std::int64_t tile = 0; tile < work.layout().tiles(); ++tile) {
-            const auto pair = h5::Reader(work.passing(pairs, tile)).read<std::int32_t>("pair");
+            const auto pair = h5::Reader(work.passing("pairs", tile)).read<std::int32_t>("pair");
             for (std::size_t i = 0; i < pair.size(); i += 2) {
                 if (!sets.together(pair[i], pair[i + 1])) sets.merge(pair[i], pair[i + 1]);
             }
@@ -197,16 +159,11 @@ std::int64_t make_parts(const Work& work, std::int64_t round) {
         file.attribute("/", "count", std::int64_t{count});
         finish_shard(file);
     });
-    return static_cast<std::int64_t>(h5::Reader(whole).number("/", "count"));
+    return static_cast<std::int64_t>(h5::Reader(parts_path(work)).number("/", "count"));
 }
 
-std::vector<std::int32_t> read_parts(const Work& work, std::int64_t round) {
-    return h5::Reader(work.passing(named("parts", round), 0)).read<std::int32_t>("part");
-}
-
-std::vector<std::int32_t> read_parts(const Work& work, std::int64_t round, std::int64_t from,
-                                     std::int64_t count) {
-    return h5::Reader(work.passing(named("parts", round), 0))
+std::vector<std::int32_t> read_parts(const Work& work, std::int64_t from, std::int64_t count) {
+    return h5::Reader(parts_path(work))
         .read<std::int32_t>("part", static_cast<std::uint64_t>(from),
                             static_cast<std::uint64_t>(count));
 }

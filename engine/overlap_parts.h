@@ -6,14 +6,11 @@
 
 namespace vfplan {
 
-// work/parts-ROUND-*.h5: for each candidate of a list the part that it belongs to, numbered by their
-// first candidate. Returns how many there are.
-std::int64_t make_parts(const Work& work, std::int64_t round);
+// work/pairs-TILE.h5 and work/parts-00000.h5: for each candidate of the list before links the part
+// that it belongs to, numbered by their first candidate. Returns how many there are.
+std::int64_t make_parts(const Work& work);
 
-// The part of every candidate of the list.
-std::vector<std::int32_t> read_parts(const Work& work, std::int64_t round);
-// Of those numbered [from, from + count).
-std::vector<std::int32_t> read_parts(const Work& work, std::int64_t round, std::int64_t from,
-                                     std::int64_t count);
+// The part of the candidates numbered [from, from + count).
+std::vector<std::int32_t> read_parts(const Work& work, std::int64_t from, std::int64_t count);
 
 }  // namespace vfplan

@@ -5,8 +5,8 @@
 
 #include <ctime>
 
-#include "engine/plan_stage.h"
 #include "engine/estimate.h"
+#include "engine/plan_stage.h"
 #include "engine/tables_stage.h"
 #include "io/files.h"
 #include "io/sha256.h"
@@ -131,7 +131,8 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
     const JobKeys keys = job_keys(config, input_sha256);
     if (options.dry_run) {
         std::string text;
-        ranks.lead([&] { text = estimate_text(estimate(config, threads, progress), config, threads); });
+        ranks.lead(
+            [&] { text = estimate_text(estimate(config, threads, progress), config, threads); });
         return text;
     }
     ranks.lead([&] {
@@ -155,6 +156,7 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
     }
     std::string text;
     ranks.lead([&] {
+        dir.remove_work();
         text = options.plan ? finish_plan(dir, config, threads, progress)
                             : finish_tables(dir, config, progress);
         write_provenance(dir, config, input_sha256, threads.count(), ranks.count());

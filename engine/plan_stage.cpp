@@ -92,8 +92,8 @@ Planned plan_tables(const PlanOptions& options, double range_max_m, const PlanTa
     out.plan.bound_pieces = std::move(bound_pieces);
     add_ratios(input, t.angles, out.plan);
     progress.stage("metrics");
-    out.metrics =
-        measure(threads, input, out.plan, PiecePlaces(t.coverage.walls, t.coverage.pieces), range_max_m);
+    out.metrics = measure(threads, input, out.plan,
+                          PiecePlaces(t.coverage.walls, t.coverage.pieces), range_max_m);
     progress.stage("joining");
     out.joining = find_joining(threads, input, options, out.plan);
     return out;

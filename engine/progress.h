@@ -28,8 +28,8 @@ struct StageTime {
     double peak_rss_mb = 0;  // highest resident memory in it, looked at every few milliseconds
 };
 
-// Standard error only. advance() and note() may be called from any thread, the rest from one. stage()
-// throws Stopped when a signal asked for an end.
+// Standard error only. advance() and note() may be called from any thread, the rest from one.
+// stage() throws Stopped when a signal asked for an end.
 class Progress {
 public:
     // `follower`: a rank that leaves the telling to the leader, but for its own warnings.
@@ -70,6 +70,5 @@ private:
     std::condition_variable_any end_of_watch_;
     std::jthread watcher_;
 };
-
 
 }  // namespace vfplan

@@ -132,8 +132,8 @@ std::vector<Option> options_for(const Work& work, const Scene& scene, const Fiel
                 if (sights[at(k)].sees(c)) ++seen;
             }
             if (seen < needed) continue;
-            out.push_back({cell, seen, field.in_domain(i, work.config.field.threshold_rad),
-                           field.vf_rad[i]});
+            out.push_back(
+                {cell, seen, field.in_domain(i, work.config.field.threshold_rad), field.vf_rad[i]});
         }
     }
     std::sort(out.begin(), out.end(), [&](const Option& a, const Option& b) {
@@ -208,8 +208,8 @@ void rescue_tile(const Work& work, std::int64_t tile, const CoveredPieces& cover
     if (!open.empty()) {
         constexpr std::int32_t rounding = 2;
         const auto margin = work.range_cells() + rounding +
-                            static_cast<std::int32_t>(std::ceil(work.config.coverage.partition_m /
-                                                                layout.grid.cell_m));
+                            static_cast<std::int32_t>(
+                                std::ceil(work.config.coverage.partition_m / layout.grid.cell_m));
         const FieldWindow field =
             read_field_window(work.dir, layout, core.grown(margin, layout.grid));
         work.threads.for_each(
@@ -310,11 +310,10 @@ void make_rescue(const Work& work) {
                 rescue_tile(work, tile, covered, path);
             });
     }
-    make_shard(work, "candidates", list_path(work, 0), [&](const std::filesystem::path&) {
+    make_shard(work, "candidates", list_path(work, found_list), [&](const std::filesystem::path&) {
         std::vector<Candidate> candidates = candidates_so_far(work);
         take_rescue_cells(work, candidates);
-        for (const Candidate& c : points_of_user(work)) candidates.push_back(c);
-        write_list(work, 0, candidates);
+        write_list(work, found_list, std::move(candidates));
     });
 }
 

@@ -82,6 +82,18 @@ void RunDir::remove_run() const {
     }
 }
 
+void RunDir::remove_work() const {
+    std::error_code ignored;
+    std::filesystem::remove_all(file("work"), ignored);
+    for (const std::filesystem::path& folder : {path_, file("shards")}) {
+        std::vector<std::filesystem::path> left;
+        for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+            if (entry.path().extension() == ".tmp") left.push_back(entry.path());
+        }
+        for (const std::filesystem::path& tmp : left) std::filesystem::remove(tmp, ignored);
+    }
+}
+
 ClaimedFolder::ClaimedFolder(const RunDir& dir, const Config& config, const JobKeys& keys,
                              bool fresh)
     : dir_(dir) {

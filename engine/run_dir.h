@@ -35,6 +35,8 @@ public:
     // Removes what a plan left (it must not stand beside other tables), or everything of a run.
     void remove_plan() const;
     void remove_run() const;
+    // Work in progress, and files that a killed process had not finished.
+    void remove_work() const;
 
     // The configuration of a finished precompute or run, with overrides. Throws IoError when it is
     // none.
@@ -45,10 +47,10 @@ private:
     std::filesystem::path path_;
 };
 
-// Takes a run directory for a job: makes the folder, writes job.toml, clears away what `fresh` makes
-// again. So hours of work are not begun for a folder that cannot be written, and whoever finds the
-// folder later knows whose it is. What it made goes again unless keep() is called, so that a job
-// that never began leaves nothing.
+// Takes a run directory for a job: makes the folder, writes job.toml, clears away what `fresh`
+// makes again. So hours of work are not begun for a folder that cannot be written, and whoever
+// finds the folder later knows whose it is. What it made goes again unless keep() is called, so
+// that a job that never began leaves nothing.
 class ClaimedFolder {
 public:
     // Throws IoError when the folder cannot be created or written.
@@ -63,7 +65,7 @@ private:
 
     const RunDir& dir_;
     bool kept_ = false;
-    bool new_job_ = false;                         // there was no job.toml
+    bool new_job_ = false;                        // there was no job.toml
     std::vector<std::filesystem::path> created_;  // folders, outermost first
 };
 

@@ -19,14 +19,12 @@ Scene::Scene(const Layout& layout, std::int64_t patch, const PatchSite& site,
              const SceneOptions& options)
     : options_(options), origin_(layout.patch_origin(patch)) {
     const Window window = layout.patch_window(patch);
-    grid_ = {{0, 0},
-             layout.grid.cell_m,
-             window.x_end - window.x_begin,
-             window.y_end - window.y_begin};
+    grid_ = {
+        {0, 0}, layout.grid.cell_m, window.x_end - window.x_begin, window.y_end - window.y_begin};
     walls_ = site.walls;
     for (std::size_t w = 0; w < walls_.size(); ++w) {
         const double length = walls_[w].length_m();  // in the site's frame, as everybody reckons it
-        for (Wall& wall = walls_[w]; Vec2d* end : {&wall.a, &wall.b}) *end -= origin_;
+        for (Wall& wall = walls_[w]; Vec2d * end : {&wall.a, &wall.b}) *end -= origin_;
         const auto on = [&](Side side) { return site.first[side][w] >= 0 ? site.count[w] : 0; };
         pieces_.add_wall(walls_[w].length_m(), on(left), on(right));
         for (const Side side : {left, right}) {

@@ -42,9 +42,7 @@ public:
     };
     // REQUIRES: the eye lies in the patch, or within eye_margin_m of it.
     Look look(const Vec2d& eye) const;
-    OverlapRow overlap_row(const Vec2d& eye) const {
-        return vfplan::overlap_row(look(eye).seen);
-    }
+    OverlapRow overlap_row(const Vec2d& eye) const { return vfplan::overlap_row(look(eye).seen); }
 
     // VF of a window of the patch, counted from its corner; see ViewKernel::field. Both rasters
     // cover the patch.

@@ -129,8 +129,8 @@ Layout layout_of(const Config& config, const Site& site) {
                         "larger cells or crop_m",
                         cell, cells, most));
     }
-    return make_layout(make_grid(site.extent, cell, config.site.snap_m),
-                       config.scanner.range_max_m, config.field.tile_cells);
+    return make_layout(make_grid(site.extent, cell, config.site.snap_m), config.scanner.range_max_m,
+                       config.field.tile_cells);
 }
 
 std::vector<std::vector<std::uint8_t>> standable_bits(const Config& config, const Site& site,
@@ -223,8 +223,8 @@ void store_site(const Config& config, const std::string& key, const Site& site,
                             {"cell_m", layout.grid.cell_m}}}};
     facts.summary = summary.dump();
     // An eye may stand beyond its patch by the margin.
-    const double reach = config.scanner.range_max_m + eye_margin_m(config.coverage.partition_m) +
-                         config.site.snap_m;
+    const double reach =
+        config.scanner.range_max_m + eye_margin_m(config.coverage.partition_m) + config.site.snap_m;
     write_site_store(path, key, layout, facts, site.walls, pieces,
                      near_walls(layout, site.walls, reach), bits);
 }

@@ -19,14 +19,13 @@ SiteOptions site_options(const Config& config);
 // site.
 Layout layout_of(const Config& config, const Site& site);
 
-// Cells where a station may stand, a bit each, by patch: in free space, not forbidden, no wall nearer
-// than the clearance. Works in bands of patches: memory is a band's.
+// Cells where a station may stand, a bit each, by patch: in free space, not forbidden, no wall
+// nearer than the clearance. Works in bands of patches: memory is a band's.
 std::vector<std::vector<std::uint8_t>> standable_bits(const Config& config, const Site& site,
-                                                      const Layout& layout,
-                                                      const Threads& threads);
+                                                      const Layout& layout, const Threads& threads);
 
-// Reads and checks the site. Notes what was cleaned. Throws UsageError when a point of the user lies
-// where no station can stand; InputError; IoError.
+// Reads and checks the site. Notes what was cleaned. Throws UsageError when a point of the user
+// lies where no station can stand; InputError; IoError.
 Site read_job_site(const Config& config, const Threads& threads, Progress& progress);
 
 // Writes the store of a site. Throws UsageError when no cell is free; IoError.

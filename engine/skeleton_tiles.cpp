@@ -30,10 +30,10 @@ bool thin_window(const Work& work, const Window& core, const Window& around, Ske
         distance_rows(field.grid, domain, static_cast<std::int32_t>(from),
                       static_cast<std::int32_t>(to), distance);
     });
-    PartOfGrid part{around.x_begin,
-                    around.y_begin,
-                    {around.x_begin > 0, around.y_begin > 0, around.x_end < grid.nx,
-                     around.y_end < grid.ny}};
+    PartOfGrid part{
+        around.x_begin,
+        around.y_begin,
+        {around.x_begin > 0, around.y_begin > 0, around.x_end < grid.nx, around.y_end < grid.ny}};
     const std::vector<Cell> state = thin(field.grid, domain, distance, part);
     out = {};
     for (std::int32_t y = core.y_begin; y < core.y_end; ++y) {
@@ -158,18 +158,17 @@ TileRidges read_tile_ridges(const Work& work, std::int64_t tile) {
     out.joints = file.read<std::int64_t>("joints", joint_from, joint_count);
     const auto [from, count] = range("ridge_begin", tile);
     const auto begin = file.read<std::int64_t>("cells_begin", from, count + 1);
-    const auto cells = file.read<std::int64_t>(
-        "cells", static_cast<std::uint64_t>(begin.front()),
-        static_cast<std::uint64_t>(begin.back() - begin.front()));
+    const auto cells =
+        file.read<std::int64_t>("cells", static_cast<std::uint64_t>(begin.front()),
+                                static_cast<std::uint64_t>(begin.back() - begin.front()));
     const auto first = file.read<std::int64_t>("first_joint", from, count);
     const auto last = file.read<std::int64_t>("last_joint", from, count);
     const auto ring = file.read<std::uint8_t>("ring", from, count);
     for (std::size_t r = 0; r < count; ++r) {
-        out.ridges.push_back(
-            {{cells.begin() + (begin[r] - begin.front()),
-              cells.begin() + (begin[r + 1] - begin.front())},
-             {first[r], last[r]},
-             ring[r] != 0});
+        out.ridges.push_back({{cells.begin() + (begin[r] - begin.front()),
+                               cells.begin() + (begin[r + 1] - begin.front())},
+                              {first[r], last[r]},
+                              ring[r] != 0});
     }
     return out;
 }

@@ -6,9 +6,9 @@
 
 namespace vfplan {
 
-// work/skeleton-NUMBER.h5: the skeleton cells of each tile (SPEC section 3). The same cells as if the
-// whole grid had been thinned at once: a tile is thinned with so much around it that the fate of
-// each of its cells is certain.
+// work/skeleton-NUMBER.h5: the skeleton cells of each tile (SPEC section 3). The same cells as if
+// the whole grid had been thinned at once: a tile is thinned with so much around it that the fate
+// of each of its cells is certain.
 void make_skeleton_tiles(const Work& work);
 
 // work/graph-00000.h5: joints and ridges by the tile of their first cell. Throws UsageError when

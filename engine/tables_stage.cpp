@@ -57,8 +57,8 @@ void make_coverage(const Work& work) {
     CandidateReport report;
     add_candidate_counts(work, report);
     report.rescued_pieces = rescued_pieces(work);
-    const std::int64_t list = make_links(work, report);
-    const std::int64_t blocks = make_coverage_blocks(work, list);
+    make_links(work, report);
+    const std::int64_t blocks = make_coverage_blocks(work);
     Json summary = Json::parse(work.store.facts().summary);
     summary["candidate_search"] = {{"joints", report.joints},
                                    {"ridges", report.ridges},
@@ -104,8 +104,7 @@ SceneOptions scene_options(const Config& c) {
             c.coverage.partition_m};
 }
 
-bool tables_complete(const std::filesystem::path& dir, const std::string& key,
-                     Progress& progress) {
+bool tables_complete(const std::filesystem::path& dir, const std::string& key, Progress& progress) {
     const bool field = index_complete(dir / "field.h5", key, progress);
     const bool coverage = index_complete(dir / "coverage.h5", key, progress);
     return field && coverage;
@@ -120,26 +119,22 @@ void make_site(const Config& config, const std::filesystem::path& dir, const std
 }
 
 void make_tables(const Config& config, const std::filesystem::path& dir, const std::string& key,
-                 const Threads& threads, const Ranks& ranks, Progress& progress, bool keep_work) {
+                 const Threads& threads, const Ranks& ranks, Progress& progress) {
     ranks.lead([&] {
-        std::filesystem::create_directories(
-            dir / "work" / fmt::format("tiles-{}", config.field.tile_cells));
+        std::filesystem::create_directories(dir / "work" /
+                                            fmt::format("tiles-{}", config.field.tile_cells));
     });
     const SiteStore store(dir / "work" / "site.h5", config.field.tile_cells);
-    const int kept = 16 + 16 * threads.count();
-    Scenes scenes(store.layout(), [&](std::int64_t patch) { return store.patch(patch); },
-                  scene_options(config), kept);
+    const int kept = 8 + 8 * threads.count();  // a tile and its surroundings for each
+    Scenes scenes(
+        store.layout(), [&](std::int64_t patch) { return store.patch(patch); },
+        scene_options(config), kept);
     const Work work{config, dir, key, threads, ranks, progress, store, scenes};
     make_field_tiles(work);
     write_field_table(work);
     const std::filesystem::path coverage = dir / "coverage.h5";
     ranks.lead([&] { index_complete(coverage, key, progress); });  // gone after this, or good
     if (!std::filesystem::exists(coverage)) make_coverage(work);
-    if (keep_work) return;
-    ranks.lead([&] {
-        std::error_code ignored;
-        std::filesystem::remove_all(dir / "work", ignored);
-    });
 }
 
 }  // namespace vfplan

@@ -21,16 +21,15 @@ SceneOptions scene_options(const Config& config);
 // is not is named in a note; an index without all its shards is removed.
 bool tables_complete(const std::filesystem::path& dir, const std::string& key, Progress& progress);
 
-// work/site.h5, on the leader alone, unless it is there. Throws as read_job_site() and store_site().
+// work/site.h5, on the leader alone, unless it is there. Throws as read_job_site() and
+// store_site().
 void make_site(const Config& config, const std::filesystem::path& dir, const std::string& key,
                const Threads& threads, Progress& progress);
 
 // Makes what is missing of field.h5 and coverage.h5 in a run directory, on all ranks together:
 // every phase leaves shards, so an end at any instant loses little. Equal jobs give equal bytes;
-// of the field's shards with equal tiles, of all else always. REQUIRES: work/site.h5, which
-// goes with all that is in work/ unless it is kept. Throws Error.
+// of the field's shards with equal tiles, of all else always. REQUIRES: work/site.h5. Throws Error.
 void make_tables(const Config& config, const std::filesystem::path& dir, const std::string& key,
-                 const Threads& threads, const Ranks& ranks, Progress& progress,
-                 bool keep_work = false);
+                 const Threads& threads, const Ranks& ranks, Progress& progress);
 
 }  // namespace vfplan

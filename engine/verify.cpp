@@ -76,13 +76,13 @@ Again look_again(const PlanTable& table, const CoverageTables& t, const Threads&
                 const auto scene = scenes.of_patch(patches[at(p)]);
                 const auto margin = eye_margin_m(scenes.options().partition_m);
                 const Window w = layout.patch_window(patches[at(p)]);
-                const Box around{{-margin, -margin},
-                                 layout.grid.cell_m *
-                                         Vec2d(w.x_end - w.x_begin, w.y_end - w.y_begin) +
-                                     Vec2d(margin, margin)};
+                const Box around{
+                    {-margin, -margin},
+                    layout.grid.cell_m * Vec2d(w.x_end - w.x_begin, w.y_end - w.y_begin) +
+                        Vec2d(margin, margin)};
                 const Scanner& scanner = scenes.options().scanner;
-                const std::unique_ptr<ViewKernel> rays = make_kernel(
-                    "embree", scene->walls(), around, scanner.range_max_m, many_rays);
+                const std::unique_ptr<ViewKernel> rays =
+                    make_kernel("embree", scene->walls(), around, scanner.range_max_m, many_rays);
                 std::unordered_map<std::int32_t, OverlapRow> rows;
                 const auto row_of = [&](std::int32_t station) -> const OverlapRow& {
                     const auto found = rows.find(station);
@@ -176,13 +176,12 @@ void check_connection(const PlanTable& table, const Again& again, Checks& checks
         }
         weakest = std::min(weakest, o);
     }
-    checks.add(weak == 0,
-               fmt::format("{} links overlap by {} >= {}{}",
-                           static_cast<std::int64_t>(plan.links.size()) - weak,
-                           table.overlap_ratio, table.threshold,
-                           weak > 0 ? fmt::format("; {} do not", weak)
-                                    : fmt::format(" (weakest {:.4f})",
-                                                  plan.links.empty() ? 0.0 : weakest)));
+    checks.add(weak == 0, fmt::format("{} links overlap by {} >= {}{}",
+                                      static_cast<std::int64_t>(plan.links.size()) - weak,
+                                      table.overlap_ratio, table.threshold,
+                                      weak > 0 ? fmt::format("; {} do not", weak)
+                                               : fmt::format(" (weakest {:.4f})",
+                                                             plan.links.empty() ? 0.0 : weakest)));
     std::map<std::int32_t, std::int32_t> first;  // station of each network
     bool whole = true;
     for (std::size_t s = 0; s < plan.stations.size(); ++s) {

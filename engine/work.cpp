@@ -1,6 +1,7 @@
 #include "engine/work.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,8 @@
 namespace vfplan {
 
 OverlapRatio Work::ratio() const {
-    const auto found = std::find(overlap_ratio_names.begin(), overlap_ratio_names.end(),
-                                 config.overlap.ratio);
+    const auto found =
+        std::find(overlap_ratio_names.begin(), overlap_ratio_names.end(), config.overlap.ratio);
     return static_cast<OverlapRatio>(found - overlap_ratio_names.begin());
 }
 
@@ -37,7 +38,8 @@ bool have_shard(const std::filesystem::path& path, const std::string& key, Progr
         if (!file.has_attribute("/", "complete") || file.text("/", "key") != key) {
             why = path.string() + ": of another job";
         } else if (file.text("/", "file") != path.filename().string()) {
-            why = fmt::format("{}: is {} under another name", path.string(), file.text("/", "file"));
+            why =
+                fmt::format("{}: is {} under another name", path.string(), file.text("/", "file"));
         } else {
             return true;
         }
@@ -56,6 +58,7 @@ void note_made_again(const std::string& why, Progress& progress) {
 void make_shards(const Work& work, const std::string& stage, std::int64_t n,
                  const std::function<std::filesystem::path(std::int64_t)>& path_of,
                  const std::function<void(std::int64_t, const std::filesystem::path&)>& make) {
+    malloc_trim(0);  // what the phase before took and gave back
     work.progress.stage(stage, n);
     work.ranks.share(work.threads, n, [&](std::int64_t task) {
         const std::filesystem::path path = path_of(task);

@@ -39,8 +39,8 @@ struct Work {
     std::filesystem::path passing(const std::string& name, std::int64_t number) const;
 };
 
-// True when a shard (or an index, or site.h5) is there, whole, of this job and under its own name. What is damaged or of another job is named in
-// a note and gone afterwards.
+// True when a shard (or an index, or site.h5) is there, whole, of this job and under its own name.
+// What is damaged or of another job is named in a note and gone afterwards.
 bool have_shard(const std::filesystem::path& path, const std::string& key, Progress& progress);
 
 // "warning: ...; it is made again", from an error's message up to its first semicolon.

@@ -137,8 +137,10 @@ void write_coverage_index(const std::filesystem::path& path, const std::vector<W
         std::uint64_t from = 0;
         for (std::size_t b = 0; b < blocks.size(); ++b) {
             if (entries[b] > 0) {
-                sources.push_back({name_in_index(blocks[b]), std::string("coverage/") + name,
-                                   {from}, {entries[b]}});
+                sources.push_back({name_in_index(blocks[b]),
+                                   std::string("coverage/") + name,
+                                   {from},
+                                   {entries[b]}});
             }
             from += entries[b];
         }

@@ -83,8 +83,8 @@ void write_pieces_csv(const std::filesystem::path& file, const CoverageTables& t
                 const Vec2d a = t.origin + wall.at(s0);
                 const Vec2d b = t.origin + wall.at(s1);
                 fmt::format_to(std::back_inserter(text),
-                               "{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{}\n", p, a.x(), a.y(),
-                               b.x(), b.y(), s1 - s0,
+                               "{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{}\n", p, a.x(), a.y(), b.x(),
+                               b.y(), s1 - s0,
                                piece_status_names[static_cast<std::size_t>(plan.pieces[p])]);
             }
         }

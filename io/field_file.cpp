@@ -75,8 +75,7 @@ Raster<float> FieldFile::read(const Window& w) const {
                                     {u(w.y_end - w.y_begin), u(w.x_end - w.x_begin)});
 }
 
-void FieldFile::each_band(
-    const std::function<void(const Window&, const Raster<float>&)>& f) const {
+void FieldFile::each_band(const std::function<void(const Window&, const Raster<float>&)>& f) const {
     constexpr std::int32_t rows = 512;  // as the chunks of tiles
     const Grid& g = grid();
     for (std::int32_t y = 0; y < g.ny; y += rows) {
@@ -97,16 +96,16 @@ FieldFile::Reduced FieldFile::reduced(std::int64_t most) const {
         for (std::size_t i = 0; i < vf.size(); ++i) {
             if (std::isnan(vf[i])) continue;
             const auto k = static_cast<std::int64_t>(i);
-            const auto to = at(out.grid.id(static_cast<std::int32_t>(k % g.nx) / side,
-                                           (w.y_begin + static_cast<std::int32_t>(k / g.nx)) / side));
+            const auto to =
+                at(out.grid.id(static_cast<std::int32_t>(k % g.nx) / side,
+                               (w.y_begin + static_cast<std::int32_t>(k / g.nx)) / side));
             out.vf_rad[to] += vf[i];
             ++count[to];
         }
     });
     for (std::size_t i = 0; i < count.size(); ++i) {
-        out.vf_rad[i] = 2 * count[i] < side * side
-                            ? std::numeric_limits<float>::quiet_NaN()
-                            : out.vf_rad[i] / static_cast<float>(count[i]);
+        out.vf_rad[i] = 2 * count[i] < side * side ? std::numeric_limits<float>::quiet_NaN()
+                                                   : out.vf_rad[i] / static_cast<float>(count[i]);
     }
     return out;
 }

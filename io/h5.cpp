@@ -64,8 +64,8 @@ hid_t type_of<std::int64_t>() {
     return H5T_STD_I64LE;
 }
 
-// No messages of the library's own; and nothing of it at the program's end, where it would fall over
-// a file that could not be closed because the disk is full.
+// No messages of the library's own; and nothing of it at the program's end, where it would fall
+// over a file that could not be closed because the disk is full.
 void be_quiet() {
     static const herr_t once = [] {
         H5dont_atexit();
@@ -212,8 +212,8 @@ void Writer::write(const std::string& name, const std::vector<T>& data, Dims dim
     const Id space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
                    H5Sclose);
     const bool plane = count >= worth_packing && dims.size() == 2;
-    const Dims block = plane ? Dims{std::min(dims[0], plane_side), std::min(dims[1], plane_side)}
-                             : Dims{};
+    const Dims block =
+        plane ? Dims{std::min(dims[0], plane_side), std::min(dims[1], plane_side)} : Dims{};
     const Id create(plane ? layout_with_filters(block) : H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_obj_track_times(create, false);
     const Id set(H5Dcreate2(impl_->file, name.c_str(), type_of<T>(), space, H5P_DEFAULT, create,
@@ -358,9 +358,10 @@ void Writer::close() {
 namespace {
 
 [[noreturn]] void damaged(const std::filesystem::path& path, const char* what) {
-    throw IoError(fmt::format("{}: {}; the file is damaged or not one of ours, run the job again "
-                              "and it is made anew",
-                              path.string(), what));
+    throw IoError(
+        fmt::format("{}: {}; the file is damaged or not one of ours, run the job again "
+                    "and it is made anew",
+                    path.string(), what));
 }
 
 }  // namespace
@@ -374,8 +375,8 @@ std::string checked_hash(const std::filesystem::path& path) {
     const State state{std::filesystem::file_size(path, error),
                       std::filesystem::last_write_time(path, error)};
     if (error) {
-        throw IoError(fmt::format("{}: no such file; is this the folder of a finished run?",
-                                  path.string()));
+        throw IoError(
+            fmt::format("{}: no such file; is this the folder of a finished run?", path.string()));
     }
     {
         const std::lock_guard lock(guard);
@@ -388,8 +389,8 @@ std::string checked_hash(const std::filesystem::path& path) {
     std::uintmax_t left = state.first - trailer_size;
     std::vector<char> buffer(1U << 20);
     while (left > 0 && in) {
-        in.read(buffer.data(), static_cast<std::streamsize>(
-                                   std::min<std::uintmax_t>(left, buffer.size())));
+        in.read(buffer.data(),
+                static_cast<std::streamsize>(std::min<std::uintmax_t>(left, buffer.size())));
         hash.add(buffer.data(), static_cast<std::size_t>(in.gcount()));
         left -= static_cast<std::uintmax_t>(in.gcount());
     }
@@ -411,9 +412,7 @@ struct Reader::Impl {
     std::filesystem::path path;
     hid_t file = -1;
 
-    [[noreturn]] void fail(const std::string& what) const {
-        damaged(path, what.c_str());
-    }
+    [[noreturn]] void fail(const std::string& what) const { damaged(path, what.c_str()); }
 };
 
 Reader::Reader(std::filesystem::path path) : impl_(new Impl{std::move(path), -1}) {
@@ -528,17 +527,16 @@ double Reader::number(const std::string& object, const std::string& name) const 
     return out;
 }
 
-#define VFPLAN_OF_TYPE(T)                                                                      \
-    template void Writer::write(const std::string&, const std::vector<T>&, Dims, std::uint64_t); \
-    template void Writer::begin<T>(const std::string&, std::uint64_t, std::uint64_t);            \
-    template void Writer::append(const std::string&, const std::vector<T>&);                     \
-    template void Writer::write_virtual(const std::string&, const Dims&,                         \
-                                        const std::vector<Source>&, T);                          \
-    template std::vector<T> Reader::read(const std::string&) const;                              \
-    template std::vector<T> Reader::read(const std::string&, std::uint64_t, std::uint64_t)       \
-        const;                                                                                   \
-    template std::vector<T> Reader::read_window(const std::string&,                              \
-                                                const std::array<std::uint64_t, 2>&,             \
+#define VFPLAN_OF_TYPE(T)                                                                         \
+    template void Writer::write(const std::string&, const std::vector<T>&, Dims, std::uint64_t);  \
+    template void Writer::begin<T>(const std::string&, std::uint64_t, std::uint64_t);             \
+    template void Writer::append(const std::string&, const std::vector<T>&);                      \
+    template void Writer::write_virtual(const std::string&, const Dims&,                          \
+                                        const std::vector<Source>&, T);                           \
+    template std::vector<T> Reader::read(const std::string&) const;                               \
+    template std::vector<T> Reader::read(const std::string&, std::uint64_t, std::uint64_t) const; \
+    template std::vector<T> Reader::read_window(const std::string&,                               \
+                                                const std::array<std::uint64_t, 2>&,              \
                                                 const std::array<std::uint64_t, 2>&) const;
 
 VFPLAN_OF_TYPE(float)

@@ -44,8 +44,7 @@ public:
     // A dataset of one dimension that comes bit by bit: begin, append until `count` values are
     // there, end. Several may be open at once.
     template <class T>
-    void begin(const std::string& name, std::uint64_t count,
-               std::uint64_t chunk = default_chunk);
+    void begin(const std::string& name, std::uint64_t count, std::uint64_t chunk = default_chunk);
     template <class T>
     void append(const std::string& name, const std::vector<T>& data);
 

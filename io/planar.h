@@ -19,7 +19,8 @@ std::string invalid_reason(const Polygon& polygon);
 std::vector<Polygon> repaired(const Polygon& polygon);
 
 // Groups of boxes that come within `near_m` of each other, directly or over others, each ascending.
-// What is further apart than a few snaps meets in no overlay, so groups may be worked on one by one.
+// What is further apart than a few snaps meets in no overlay, so groups may be worked on one by
+// one.
 std::vector<std::vector<std::size_t>> neighbour_groups(const std::vector<Box>& boxes,
                                                        double near_m);
 Box bounds(const Line& points);

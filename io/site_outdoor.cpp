@@ -37,7 +37,8 @@ public:
         Group out;
         for (const std::size_t i : members) {
             if (kind_[i] < 2) (kind_[i] == 0 ? out.solids : out.obstacles).push_back(*polygon_[i]);
-            if (kind_[i] >= 2) (kind_[i] == 2 ? out.walls : out.obstacle_lines).push_back(*line_[i]);
+            if (kind_[i] >= 2)
+                (kind_[i] == 2 ? out.walls : out.obstacle_lines).push_back(*line_[i]);
         }
         return out;
     }
@@ -104,13 +105,12 @@ void build_outdoor(const Sorted& in, const SiteOptions& options, Site& site) {
     site.buildings = static_cast<std::int64_t>(items.solids());
     const auto groups = planar::neighbour_groups(items.boxes(), 4 * options.snap_m);
     std::vector<Built> built(groups.size());
-    options.for_each(static_cast<std::int64_t>(groups.size()),
-                     [&](std::int64_t from, std::int64_t to) {
-                         for (auto g = static_cast<std::size_t>(from);
-                              g < static_cast<std::size_t>(to); ++g) {
-                             built[g] = build_group(items.group(groups[g]), options.snap_m);
-                         }
-                     });
+    options.for_each(
+        static_cast<std::int64_t>(groups.size()), [&](std::int64_t from, std::int64_t to) {
+            for (auto g = static_cast<std::size_t>(from); g < static_cast<std::size_t>(to); ++g) {
+                built[g] = build_group(items.group(groups[g]), options.snap_m);
+            }
+        });
     Box box;
     for (Built& b : built) {
         site.area_m2 += b.area_m2;

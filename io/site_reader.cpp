@@ -31,15 +31,14 @@ void settle_invalid(FeatureSet& set, const SiteOptions& options, const std::stri
                     CleaningCounts& counts) {
     // Asking takes long, and features do not mind each other.
     std::vector<std::vector<std::string>> reasons(set.features.size());
-    options.for_each(static_cast<std::int64_t>(reasons.size()),
-                     [&](std::int64_t from, std::int64_t to) {
-                         for (auto i = static_cast<std::size_t>(from);
-                              i < static_cast<std::size_t>(to); ++i) {
-                             for (const Polygon& p : set.features[i].polygons) {
-                                 reasons[i].push_back(planar::invalid_reason(p));
-                             }
-                         }
-                     });
+    options.for_each(
+        static_cast<std::int64_t>(reasons.size()), [&](std::int64_t from, std::int64_t to) {
+            for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) {
+                for (const Polygon& p : set.features[i].polygons) {
+                    reasons[i].push_back(planar::invalid_reason(p));
+                }
+            }
+        });
     for (std::size_t i = 0; i < set.features.size(); ++i) {
         Feature& f = set.features[i];
         if (f.role == Role::drawing || f.role == Role::opening) continue;

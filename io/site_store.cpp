@@ -95,17 +95,18 @@ void write_site_store(const std::filesystem::path& path, const std::string& key,
     file.attribute("/", "file", path.filename().string());
     file.attribute("/", "crs_wkt", facts.crs_wkt);
     file.attribute("/", "summary", facts.summary);
-    for (const auto& [name, value] :
-         {std::pair{"buildings", facts.buildings}, {"walls", facts.walls},
-          {"pieces", facts.pieces}, {"free_cells", facts.free_cells}}) {
+    for (const auto& [name, value] : {std::pair{"buildings", facts.buildings},
+                                      {"walls", facts.walls},
+                                      {"pieces", facts.pieces},
+                                      {"free_cells", facts.free_cells}}) {
         file.attribute("/", name, value);
     }
     file.write("frame", std::vector<double>{
                             facts.origin.x(), facts.origin.y(), facts.extent.min.x(),
                             facts.extent.min.y(), facts.extent.max.x(), facts.extent.max.y(),
                             layout.grid.origin.x(), layout.grid.origin.y(), layout.grid.cell_m});
-    file.write("layout", std::vector<std::int32_t>{layout.grid.nx, layout.grid.ny,
-                                                   layout.patch_cells});
+    file.write("layout",
+               std::vector<std::int32_t>{layout.grid.nx, layout.grid.ny, layout.patch_cells});
     file.group("walls");
     write_walls(file, "walls", walls);
     std::vector<std::int32_t> per_side(walls.size());

@@ -76,18 +76,20 @@ void check_shards(const std::filesystem::path& index) {
         const std::filesystem::path shard =
             index.parent_path() / fmt::format("{}{:0{}}.h5", stem, i, digits);
         if (!std::filesystem::exists(shard)) {
-            throw IoError(fmt::format("{}: missing, and {} needs it; run the job again and it is "
-                                      "made anew",
-                                      shard.string(), index.string()));
+            throw IoError(
+                fmt::format("{}: missing, and {} needs it; run the job again and it is "
+                            "made anew",
+                            shard.string(), index.string()));
         }
         std::string wanted;
         for (std::size_t k = 0; k < hash_bytes; ++k) {
             wanted += fmt::format("{:02x}", hashes[i * hash_bytes + k]);
         }
         if (h5::checked_hash(shard) != wanted) {
-            throw IoError(fmt::format("{}: another shard than {} was made from; run the job again "
-                                      "and it is made anew",
-                                      shard.string(), index.string()));
+            throw IoError(
+                fmt::format("{}: another shard than {} was made from; run the job again "
+                            "and it is made anew",
+                            shard.string(), index.string()));
         }
     }
 }

@@ -8,9 +8,9 @@
 
 namespace vfplan {
 
-// Every free side of every wall that has to be scanned, cut into equal pieces, numbered by wall, then
-// side (left first), then from wall.a on. A county has twenty million, so what can be reckoned from
-// the side is not stored.
+// Every free side of every wall that has to be scanned, cut into equal pieces, numbered by wall,
+// then side (left first), then from wall.a on. A county has twenty million, so what can be reckoned
+// from the side is not stored.
 class Pieces {
 public:
     // The next wall's sides, with as many pieces each.

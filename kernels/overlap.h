@@ -42,8 +42,8 @@ double overlap(OverlapRatio ratio, const SeenTotal& a, const SeenTotal& b,
 double overlap(OverlapRatio ratio, const Pieces& pieces, const CoverageRow& a,
                const CoverageRow& b);
 
-// A row that brings the lengths of its pieces along, for places where the table of all pieces is not
-// at hand.
+// A row that brings the lengths of its pieces along, for places where the table of all pieces is
+// not at hand.
 struct SeenLength {
     std::int32_t piece = 0;
     float angle_rad = 0;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/index.h"
 #include "kernels/free_cells.h"
+#include "kernels/index.h"
 
 namespace vfplan {
 namespace {
@@ -191,8 +191,8 @@ std::int64_t prune_spurs(const Grid& grid, SkeletonCells& skeleton) {
             const bool spur = (ridge.joint[0] < 0) != (ridge.joint[1] < 0);
             if (!spur) continue;
             const std::int32_t joint = std::max(ridge.joint[0], ridge.joint[1]);
-            const double clearance = std::sqrt(
-                static_cast<double>(skeleton.squared[index_of(graph.joints[at(joint)])]));
+            const double clearance =
+                std::sqrt(static_cast<double>(skeleton.squared[index_of(graph.joints[at(joint)])]));
             const double length = arc_cells(grid, ridge.cells, 0, ridge.cells.size() - 1) + 1;
             if (length >= clearance) continue;
             for (const std::int64_t c : ridge.cells) gone[index_of(c)] = 1;

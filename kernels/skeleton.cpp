@@ -71,11 +71,7 @@ class Thinning {
 public:
     Thinning(const Grid& grid, const DistanceField& distance, const PartOfGrid& part,
              std::vector<Cell>& state)
-        : grid_(grid),
-          distance_(distance),
-          part_(part),
-          state_(state),
-          waiting_(state.size(), 0) {}
+        : grid_(grid), distance_(distance), part_(part), state_(state), waiting_(state.size(), 0) {}
 
     // With `corners`, the corners of blocks are kept as ends.
     void run(bool corners) {

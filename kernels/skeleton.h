@@ -41,5 +41,4 @@ std::vector<Cell> thin(const Grid& grid, const Raster<std::uint8_t>& domain,
 // Average outward flux of the distance gradient through the eight neighbours of a cell.
 double outward_flux(const Grid& grid, const DistanceField& distance, std::int64_t cell);
 
-
 }  // namespace vfplan

@@ -96,15 +96,10 @@ class Job:
                 found[int(names.get(b"PMIX_RANK", b"0"))] = int(entry.name)
         return found
 
-    def wait_at_work(self, more_than=1, start=1):
-        """Behind the site and, where tables are made in shards, some of these."""
-        def at_work():
-            if self.state() not in ("PENDING", "RUNNING"):
-                return True
-            if (self.out / "shards").is_dir():
-                return self.shards() > more_than
-            return self.log.exists() and self.log.read_text().count(" features, ") >= start
-        until(at_work, f"more than {more_than} shards", self)
+    def wait_at_work(self, more_than=1):
+        """Until there are more shards than that."""
+        until(lambda: self.state() not in ("PENDING", "RUNNING") or self.shards() > more_than,
+              f"more than {more_than} shards", self)
         check(self.state() == "RUNNING", f"ended before it could be disturbed\n{self.text()}")
 
     def start_again(self, restarts):
@@ -128,21 +123,22 @@ def write_job(folder, cell_m):
          folder / "city.geojson")
     file = folder / "job.toml"
     file.write_text(f'preset = "outdoor"\n[site]\ninput = "city.geojson"\n'
-                    f"[field]\ncell_m = {cell_m}\n")
+                    f"[field]\ncell_m = {cell_m}\ntile_cells = 128\n")
     return file
 
 
 def preempted_twice(folder):
     """(1) Two nodes, preemption in two ways, and the result of a plain run."""
     job_file = write_job(folder, 0.5)
-    call(program, "run", job_file, "--out", folder / "plain", "--quiet")
+    call(program, "run", job_file, "--set", "field.tile_cells=1024", "--out", folder / "plain",
+         "--quiet")
     job = Job(folder, job_file, "--nodes", "2", name="it's out %j")
     job.wait_at_work()
     check(job.show()["NumNodes"] == "2", job.text())
     check(sorted(until(job.ranks, "ranks", job)) == [0, 1], job.text())
     call("scancel", "--signal=TERM", "--batch", job.id)  # as the end of the time limit does
     job.start_again(1)
-    job.wait_at_work(job.shards(), start=2)
+    job.wait_at_work(job.shards())
     call("scontrol", "requeue", job.id)  # as a job of higher priority does
     job.start_again(2)
     check(job.end() == ("COMPLETED", "0:0"), job.text())
@@ -152,6 +148,7 @@ def preempted_twice(folder):
     shas = [json.loads((f / "summary.json").read_text())["result_sha256"]
             for f in (folder / "plain", job.out)]
     check(shas[0] == shas[1], f"{shas}\n{log}")
+    check(json.loads((job.out / "provenance.json").read_text())["ranks"] == 2, log)
 
 
 def cancelled(folder):
