@@ -48,7 +48,7 @@ struct Sample {
         Raster<float> vf(at(scene->grid().size()), std::nanf(""));
         for (const Window& w : windows) {
             const FieldCounts c =
-                kernel.field(scene->scanner(), scene->grid(), w, scene->prepared.standable, vf);
+                kernel.field(scene->scanner(), scene->grid(), w, scene->standable, vf);
             if (counts != nullptr) *counts += c;
         }
         return vf;

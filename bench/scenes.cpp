@@ -9,9 +9,10 @@
 #include <memory>
 
 #include "engine/generate.h"
-#include "engine/viewer.h"
 #include "io/files.h"
 #include "io/site_reader.h"
+#include "io/site_store.h"
+#include "kernels/free_cells.h"
 #include "kernels/index.h"
 
 namespace vfplan::bench {
@@ -29,7 +30,9 @@ Scene make_scene(const std::string& name, const std::string& job, const std::str
     s.name = name;
     s.config = read_config(std::filesystem::path(VFPLAN_SOURCE_DIR) / "configs" / job,
                            {"site.input=" + site});
-    s.prepared = prepare(s.config, read_site(s.config.site.input, site_options(s.config)).site);
+    s.site = read_site(s.config.site.input, site_options(s.config)).site;
+    s.layout = layout_of(s.config, s.site);
+    s.standable = free_cells(s.grid(), s.site.free_region);
     return s;
 }
 
@@ -64,6 +67,24 @@ const Scene* scene(const std::string& name) {
     return s.get();
 }
 
+void write_site(const Scene& scene, const std::filesystem::path& dir, const std::string& key) {
+    const Pieces pieces = cut_into_pieces(scene.walls(), scene.config.coverage.partition_m);
+    SiteFacts facts;
+    facts.origin = scene.site.origin;
+    facts.summary = "{}";
+    facts.walls = static_cast<std::int64_t>(scene.walls().size());
+    facts.pieces = pieces.size();
+    facts.extent = scene.extent();
+    const double reach = scene.config.scanner.range_max_m +
+                         eye_margin_m(scene.config.coverage.partition_m) +
+                         scene.config.site.snap_m;
+    std::filesystem::create_directories(dir / "shards");
+    std::filesystem::create_directories(dir / "work");
+    write_site_store(dir / "work" / "site.h5", key, scene.layout, facts, scene.walls(), pieces,
+                     near_walls(scene.layout, scene.walls(), reach),
+                     standable_bits(scene.config, scene.site, scene.layout, Threads(1)));
+}
+
 std::vector<Window> sample_windows(const Scene& scene, int every) {
     const Grid& g = scene.grid();
     std::vector<Window> out;
@@ -85,7 +106,7 @@ std::vector<Vec2d> eyes_in(const Scene& scene, const std::vector<Window>& window
         for (std::int32_t iy = w.y_begin; iy < w.y_end; ++iy) {
             for (std::int32_t ix = w.x_begin; ix < w.x_end; ++ix) {
                 const std::int64_t cell = scene.grid().id(ix, iy);
-                if (scene.prepared.standable[at(cell)] != 0) {
+                if (scene.standable[at(cell)] != 0) {
                     out.push_back(scene.grid().centre(cell));
                 }
             }

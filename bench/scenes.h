@@ -1,11 +1,13 @@
 // Sites that the benchmarks stand in.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/config.h"
+#include "engine/site_stage.h"
 #include "engine/tables_stage.h"
 
 namespace vfplan::bench {
@@ -14,13 +16,21 @@ namespace vfplan::bench {
 struct Scene {
     std::string name;
     Config config;
-    Prepared prepared;
+    Site site;
+    Layout layout;
+    Raster<std::uint8_t> standable;  // of the whole grid
 
-    const std::vector<Wall>& walls() const { return prepared.site.walls; }
-    const Box& extent() const { return prepared.site.extent; }
-    const Grid& grid() const { return prepared.grid; }
+    const std::vector<Wall>& walls() const { return site.walls; }
+    const Box& extent() const { return site.extent; }
+    const Grid& grid() const { return layout.grid; }
     Scanner scanner() const { return scanner_of(config); }
 };
+
+// Side of the windows that threads take, cells.
+inline constexpr std::int32_t window_cells = 32;
+
+// Writes the site as work/site.h5 of a run directory.
+void write_site(const Scene& scene, const std::filesystem::path& dir, const std::string& key);
 
 // Made at first use:
 //   town       generated, 637 buildings, 976 x 893 m, cells of 2 m, range 600 m, pieces of 5 m

@@ -10,46 +10,87 @@
 #include <memory>
 
 #include "bench/scenes.h"
+#include "engine/field_tiles.h"
 #include "engine/graph.h"
 #include "engine/plan_stage.h"
-#include "engine/viewer.h"
-#include "kernels/exact_scene.h"
+#include "engine/work.h"
+#include "io/tables.h"
 #include "kernels/free_cells.h"
 #include "kernels/index.h"
+#include "kernels/ridges.h"
 #include "kernels/skeleton.h"
 
 namespace vfplan::bench {
 namespace {
 
-// Everything that a job makes on its way, made once.
+std::filesystem::path folder(const std::string& name) {
+    return std::filesystem::temp_directory_path() /
+           ("vfplan_bench_" + name + "_" + std::to_string(getpid()));
+}
+
+// Everything that a job makes on its way, made once in a run directory.
 struct Made {
     const Scene* scene;
+    std::filesystem::path dir;
+    std::string key = "bench";
     Threads threads{1};
+    Ranks ranks;
     Progress progress{true};
-    Tables tables;
+    Raster<float> vf_rad;
     Raster<std::uint8_t> domain;
     DistanceField distance;
-    Raster<std::uint8_t> skeleton;
-    std::unique_ptr<ExactScene> kernel;
-    std::unique_ptr<Viewer> viewer;
+    SkeletonCells skeleton;
+    std::unique_ptr<CoverageTables> coverage;
+    std::unique_ptr<CoverageEntries> entries;
+    std::unique_ptr<PlanTables> plan;
+    std::unique_ptr<Scenes> scenes;
 
-    explicit Made(const std::string& name) : scene(bench::scene(name)) {
-        tables = make_tables(scene->config, scene->prepared, "bench", threads, progress);
-        const auto threshold = static_cast<float>(scene->config.field.threshold_rad);
-        for (const float vf : tables.field.vf_rad) domain.push_back(vf >= threshold ? 1 : 0);
+    explicit Made(const std::string& name) : scene(bench::scene(name)), dir(folder(name)) {
+        write_site(*scene, dir, key);
+        {
+            const SiteStore store(dir / "work" / "site.h5", scene->config.field.tile_cells);
+            std::vector<PatchSite> patches;
+            for (std::int64_t p = 0; p < store.layout().patches(); ++p) {
+                patches.push_back(store.patch(p));
+            }
+            scenes = std::make_unique<Scenes>(
+                store.layout(), [of = std::move(patches)](std::int64_t p) { return of[at(p)]; },
+                scene_options(scene->config), 1000);
+        }
+        make_tables(scene->config, dir, key, threads, ranks, progress);
+        const Grid& g = scene->grid();
+        FieldWindow field = read_field_window(dir, scene->layout, {0, 0, g.nx, g.ny});
+        domain = field.domain(scene->config.field.threshold_rad);
+        vf_rad = std::move(field.vf_rad);
         make_distance();
-        skeleton = thin(scene->grid(), domain, distance);
-        kernel = std::make_unique<ExactScene>(scene->walls(), scene->extent(),
-                                              scene->scanner().range_max_m);
-        viewer =
-            std::make_unique<Viewer>(*kernel, scene->walls(), tables.coverage.pieces,
-                                     scene->scanner(), scene->config.coverage.visible_fraction);
+        skeleton = thinned();
+        coverage = std::make_unique<CoverageTables>(read_coverage(dir / "coverage.h5"));
+        entries = std::make_unique<CoverageEntries>(dir / "coverage.h5");
+        plan = std::make_unique<PlanTables>(
+            plan_tables_of(*coverage, *entries, plan_options(scene->config).ratio));
     }
+    ~Made() {
+        std::error_code ignored;
+        std::filesystem::remove_all(dir, ignored);
+    }
+    Made(const Made&) = delete;
+    Made& operator=(const Made&) = delete;
+
     void make_distance() {
         const Grid& g = scene->grid();
         distance.resize(g.size());
         distance_columns(g, domain, 0, g.nx, distance);
         distance_rows(g, domain, 0, g.ny, distance);
+    }
+    SkeletonCells thinned() const {
+        const std::vector<Cell> state = thin(scene->grid(), domain, distance);
+        SkeletonCells out;
+        for (std::size_t i = 0; i < state.size(); ++i) {
+            if (state[i] != Cell::present) continue;
+            out.cell.push_back(static_cast<std::int64_t>(i));
+            out.squared.push_back(distance.squared[i]);
+        }
+        return out;
     }
 };
 
@@ -82,7 +123,7 @@ std::int64_t count_set(const Raster<std::uint8_t>& r) { return std::count(r.begi
 void stage_free_cells(benchmark::State& state, const std::string& site) {
     const Made& m = made(site);
     timed(state, [&] {
-        return count_set(free_cells(m.scene->grid(), m.scene->prepared.site.free_region));
+        return count_set(free_cells(m.scene->grid(), m.scene->site.free_region));
     });
     per_item(state, "cells", m.scene->grid().size());
 }
@@ -100,31 +141,40 @@ void stage_distance(benchmark::State& state, const std::string& site) {
 
 void stage_thin(benchmark::State& state, const std::string& site) {
     const Made& m = made(site);
-    timed(state, [&] { return count_set(thin(m.scene->grid(), m.domain, m.distance)); });
+    timed(state, [&] { return m.thinned().cell.size(); });
     per_item(state, "cells", m.scene->grid().size());
 }
 
 void stage_ridges(benchmark::State& state, const std::string& site) {
     const Made& m = made(site);
     timed(state, [&] {
-        Raster<std::uint8_t> skeleton = m.skeleton;
-        prune_spurs(m.scene->grid(), m.distance, skeleton);
+        SkeletonCells skeleton = m.skeleton;
+        prune_spurs(m.scene->grid(), skeleton);
         return ridge_graph(m.scene->grid(), skeleton).ridges.size();
     });
     per_item(state, "cells", m.scene->grid().size());
 }
 
+// In scenes that stand already; those of a job are made once for many rows.
 void stage_coverage_rows(benchmark::State& state, const std::string& site) {
-    const Made& m = made(site);
+    Made& m = made(site);
     std::vector<Vec2d> eyes;
-    for (const Candidate& c : m.tables.coverage.candidates) eyes.push_back(c.at);
+    for (const Candidate& c : m.coverage->candidates) eyes.push_back(c.at);
+    std::vector<CoverageRow> rows(eyes.size());
     std::size_t entries = 0;
     timed(state, [&] {
+        m.scenes->each(m.threads, eyes, [&](std::size_t i, const vfplan::Scene& scene) {
+            rows[i] = scene.look(eyes[i]).row;
+        });
         entries = 0;
-        for (const CoverageRow& row : m.viewer->rows(m.threads, eyes)) entries += row.size();
+        for (const CoverageRow& row : rows) entries += row.size();
         return entries;
     });
-    if (entries != m.tables.coverage.table.seen.size()) {
+    std::vector<std::int32_t> pieces;
+    for (const CoverageRow& row : rows) {
+        for (const Seen& s : row) pieces.push_back(s.piece);
+    }
+    if (pieces != m.plan->rows.piece) {
         return state.SkipWithError("the rows differ from the job's table");
     }
     per_item(state, "rows", static_cast<std::int64_t>(eyes.size()));
@@ -133,16 +183,17 @@ void stage_coverage_rows(benchmark::State& state, const std::string& site) {
 
 void stage_overlap(benchmark::State& state, const std::string& site) {
     const Made& m = made(site);
-    const CoverageTables& c = m.tables.coverage;
+    const PlanOptions options = plan_options(m.scene->config);
     std::size_t pairs = 0;
     timed(state, [&] {
+        const PieceIndex index = index_of(m.plan->rows, m.coverage->pieces.size());
         pairs = static_cast<std::size_t>(
-            overlap_graph(m.threads, c.pieces, c.table, ratio_of(m.scene->config.overlap.ratio),
-                          m.scene->config.overlap.threshold)
+            make_graph(overlap_pairs(m.threads, m.plan->rows, index, m.plan->piece_length_m,
+                                     options.ratio, options.threshold))
                 .edges());
         return pairs;
     });
-    per_item(state, "rows", c.table.rows());
+    per_item(state, "rows", m.coverage->rows());
     state.counters["links"] = static_cast<double>(pairs);
 }
 
@@ -150,35 +201,58 @@ void stage_plan(benchmark::State& state, const std::string& site) {
     Made& m = made(site);
     std::size_t stations = 0;
     timed(state, [&] {
-        stations = plan_tables(m.scene->config, m.tables.coverage, m.threads, m.progress)
+        stations = plan_tables(plan_options(m.scene->config), m.scene->config.scanner.range_max_m,
+                               *m.plan, m.threads, m.progress)
                        .plan.stations.size();
         return stations;
     });
-    per_item(state, "candidates", m.tables.coverage.table.rows());
+    per_item(state, "candidates", m.coverage->rows());
     state.counters["stations"] = static_cast<double>(stations);
 }
 
+// One tile of the field and one block of rows as shards, with their indices.
 void stage_write_tables(benchmark::State& state, const std::string& site) {
     const Made& m = made(site);
-    const std::filesystem::path dir = std::filesystem::temp_directory_path() /
-                                      ("vfplan_bench_tables_" + std::to_string(getpid()));
-    std::filesystem::create_directories(dir);
+    const std::filesystem::path dir = folder("tables");
+    std::filesystem::create_directories(dir / "shards");
+    const std::filesystem::path tile = dir / "shards" / "field-00000.h5";
+    const std::filesystem::path rows = dir / "shards" / "coverage-00000.h5";
+    const Grid& g = m.scene->grid();
+    CoverageBlock block{m.coverage->candidates, {}};
+    const auto fractions = m.entries->fractions(0, m.coverage->entries());
+    const auto angles = m.entries->angles_rad(0, m.coverage->entries());
+    for (std::int64_t r = 0; r < m.coverage->rows(); ++r) {
+        CoverageRow row;
+        for (std::int64_t i = m.coverage->begin[at(r)]; i < m.coverage->begin[at(r) + 1]; ++i) {
+            row.push_back({m.plan->rows.piece[at(i)], fractions[at(i)], angles[at(i)]});
+        }
+        block.table.add(row);
+    }
+    Layout layout = m.scene->layout;
+    layout.tile_cells = std::max(g.nx, g.ny);  // all in one
     const auto write = [&] {
-        write_field(dir / "field.h5", m.tables.field);
-        write_coverage(dir / "coverage.h5", m.tables.coverage);
-        return m.tables.field.vf_rad.size() + m.tables.coverage.table.seen.size();
+        h5::Writer field = shard_writer(tile, m.key);
+        field.write("vf", m.vf_rad,
+                    {static_cast<std::uint64_t>(g.ny), static_cast<std::uint64_t>(g.nx)});
+        finish_shard(field);
+        write_field_index(dir / "field.h5", {layout, {0, 0}, "", m.key, "{}"}, {tile});
+        h5::Writer table = shard_writer(rows, m.key);
+        write_block(table, block);
+        finish_shard(table);
+        write_coverage_index(dir / "coverage.h5", m.coverage->walls, m.coverage->pieces, {rows},
+                             {{0, 0}, "", m.key, "{}"});
+        return m.vf_rad.size() + block.table.seen.size();
     };
     timed(state, write);
-    const Raster<float> read = read_field(dir / "field.h5").vf_rad;
+    const Raster<float> read = FieldFile(dir / "field.h5").read({0, 0, g.nx, g.ny});
     const bool same = std::equal(
-        read.begin(), read.end(), m.tables.field.vf_rad.begin(), m.tables.field.vf_rad.end(),
+        read.begin(), read.end(), m.vf_rad.begin(), m.vf_rad.end(),
         [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); });
-    if (!same || read_coverage(dir / "coverage.h5").table.seen.size() !=
-                     m.tables.coverage.table.seen.size()) {
+    if (!same || read_coverage(dir / "coverage.h5").entries() != m.coverage->entries()) {
         state.SkipWithError("what was written reads back as something else");
     }
     std::filesystem::remove_all(dir);
-    per_item(state, "cells", m.scene->grid().size());
+    per_item(state, "cells", g.size());
 }
 
 #define VFPLAN_STAGE(function)                                                \

@@ -1,8 +1,9 @@
 // task_times DIR: what each task of the parallel stages takes, for the model of bench/scaling.py.
 //
-// Does the field and the coverage rows of a finished run again on one thread, task by task as
-// visibility_field and Viewer::rows cut them, and prints processor seconds as CSV. An answer that
-// differs from the run's tables ends the program: the time of a wrong answer is worth nothing.
+// Does the field and the coverage rows of a finished run again on one thread, in the portions that
+// threads take them in, and prints processor seconds as CSV. The scenes of the patches are made
+// beforehand and not counted. An answer that differs from the run's tables ends the program: the
+// time of a wrong answer is worth nothing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,8 +13,8 @@
 #include <limits>
 
 #include "engine/run_dir.h"
+#include "engine/scenes.h"
 #include "engine/tables_stage.h"
-#include "engine/viewer.h"
 #include "io/tables.h"
 #include "kernels/error.h"
 #include "kernels/index.h"
@@ -22,7 +23,8 @@ namespace vfplan {
 namespace {
 
 constexpr int passes = 3;
-constexpr std::int64_t eyes_per_task = 4;  // the grain of Viewer::rows
+constexpr std::int32_t window_cells = 32;      // of the field
+constexpr std::int64_t eyes_per_task = 16;     // the grain of Scenes::each
 
 // The run's tables are not what this program computes.
 struct Differs : std::runtime_error {
@@ -55,33 +57,56 @@ std::vector<Task> best_of_passes(std::int64_t count,
     return tasks;
 }
 
-std::vector<Task> field_tasks(const ViewKernel& kernel, const Scanner& scanner,
-                              const FieldTable& field) {
-    const Grid& grid = field.grid;
-    Raster<std::uint8_t> standable(field.vf_rad.size(), 0);
-    std::transform(field.vf_rad.begin(), field.vf_rad.end(), standable.begin(),
-                   [](float v) { return static_cast<std::uint8_t>(std::isnan(v) ? 0 : 1); });
-    Raster<float> vf_rad(standable.size(), std::numeric_limits<float>::quiet_NaN());
-    const std::int32_t columns = (grid.nx + window_cells - 1) / window_cells;
-    const std::int32_t rows = (grid.ny + window_cells - 1) / window_cells;
-    std::vector<Task> tasks = best_of_passes(std::int64_t{columns} * rows, [&](std::int64_t w) {
-        const auto x = static_cast<std::int32_t>(w % columns) * window_cells;
-        const auto y = static_cast<std::int32_t>(w / columns) * window_cells;
-        const Window window{x, y, std::min(x + window_cells, grid.nx),
-                            std::min(y + window_cells, grid.ny)};
-        return kernel.field(scanner, grid, window, standable, vf_rad).cells;
-    });
-    for (std::int64_t i = 0; i < grid.size(); ++i) {
-        const float was = field.vf_rad[at(i)];
-        const float is = vf_rad[at(i)];
-        if (standable[at(i)] == 0 || was == is) continue;
-        throw Differs(fmt::format("field.h5 has {} rad at cell ({}, {}) and this program {}", was,
-                                  grid.ix(i), grid.iy(i), is));
+// Windows of the patches, as threads take them of a tile that holds whole patches.
+std::vector<Task> field_tasks(Scenes& scenes, const FieldFile& field) {
+    const Layout& layout = scenes.layout();
+    struct Part {
+        std::int64_t patch;
+        Window window;  // of the patch
+    };
+    std::vector<Part> parts;
+    std::vector<Raster<float>> was(at(layout.patches()));
+    std::vector<Raster<float>> is(was.size());
+    std::vector<Raster<std::uint8_t>> standable(was.size());
+    for (std::int64_t p = 0; p < layout.patches(); ++p) {
+        const Window w = layout.patch_window(p);
+        was[at(p)] = field.read(w);
+        is[at(p)] = was[at(p)];
+        for (float& v : is[at(p)]) {
+            standable[at(p)].push_back(std::isnan(v) ? 0 : 1);
+            if (!std::isnan(v)) v = 0;
+        }
+        scenes.of_patch(p);
+        const std::int32_t nx = w.x_end - w.x_begin;
+        const std::int32_t ny = w.y_end - w.y_begin;
+        for (std::int32_t y = 0; y < ny; y += window_cells) {
+            for (std::int32_t x = 0; x < nx; x += window_cells) {
+                parts.push_back({p,
+                                 {x, y, std::min(x + window_cells, nx),
+                                  std::min(y + window_cells, ny)}});
+            }
+        }
+    }
+    std::vector<Task> tasks =
+        best_of_passes(static_cast<std::int64_t>(parts.size()), [&](std::int64_t i) {
+            const Part& part = parts[at(i)];
+            return scenes.of_patch(part.patch)
+                ->field(part.window, standable[at(part.patch)], is[at(part.patch)])
+                .cells;
+        });
+    for (std::size_t p = 0; p < was.size(); ++p) {
+        for (std::size_t i = 0; i < was[p].size(); ++i) {
+            if (standable[p][i] == 0 || was[p][i] == is[p][i]) continue;
+            throw Differs(fmt::format("field.h5 has {} rad at cell {} of patch {} and this program "
+                                      "{}",
+                                      was[p][i], i, p, is[p][i]));
+        }
     }
     return tasks;
 }
 
-std::vector<Task> coverage_tasks(const Viewer& viewer, const CoverageTables& t) {
+std::vector<Task> coverage_tasks(Scenes& scenes, const CoverageTables& t,
+                                 const CoverageEntries& entries) {
     const auto eyes = static_cast<std::int64_t>(t.candidates.size());
     std::vector<CoverageRow> rows(at(eyes));
     std::vector<Task> tasks =
@@ -89,16 +114,21 @@ std::vector<Task> coverage_tasks(const Viewer& viewer, const CoverageTables& t) 
             const std::int64_t from = task * eyes_per_task;
             const std::int64_t to = std::min(from + eyes_per_task, eyes);
             for (std::int64_t i = from; i < to; ++i) {
-                rows[at(i)] = viewer.row(t.candidates[at(i)].at);
+                rows[at(i)] = scenes.look(t.candidates[at(i)].at).row;
             }
             return to - from;
         });
     for (std::int64_t i = 0; i < eyes; ++i) {
-        const bool same = std::equal(rows[at(i)].begin(), rows[at(i)].end(), t.table.row_begin(i),
-                                     t.table.row_end(i), [](const Seen& a, const Seen& b) {
-                                         return a.piece == b.piece && a.fraction == b.fraction &&
-                                                a.angle_rad == b.angle_rad;
-                                     });
+        const std::int64_t from = t.begin[at(i)];
+        const std::int64_t count = t.begin[at(i) + 1] - from;
+        const auto pieces = entries.pieces(from, count);
+        const auto fractions = entries.fractions(from, count);
+        const auto angles = entries.angles_rad(from, count);
+        bool same = rows[at(i)].size() == pieces.size();
+        for (std::size_t k = 0; same && k < pieces.size(); ++k) {
+            const Seen& s = rows[at(i)][k];
+            same = s.piece == pieces[k] && s.fraction == fractions[k] && s.angle_rad == angles[k];
+        }
         if (!same) throw Differs(fmt::format("coverage.h5 has other pieces for candidate {}", i));
     }
     return tasks;
@@ -112,18 +142,31 @@ void print(const char* stage, const std::vector<Task>& tasks) {
 
 void measure(const RunDir& dir) {
     const Config config = dir.config();
-    const FieldTable field = read_field(dir.file("field.h5"));
+    const FieldFile field(dir.file("field.h5"));
     const CoverageTables t = read_coverage(dir.file("coverage.h5"));
-    Box box{field.grid.origin,
-            field.grid.origin + field.grid.cell_m * Vec2d(field.grid.nx, field.grid.ny)};
-    for (const Candidate& c : t.candidates) box.add(c.at);
-    const Scanner scanner = scanner_of(config);
-    const auto of_field =
-        make_kernel(config.visibility.kernel, t.walls, box, scanner.range_max_m, rays_of(config));
-    const auto exact = make_kernel("exact", t.walls, box, scanner.range_max_m, 0);
-    const Viewer viewer(*exact, t.walls, t.pieces, scanner, config.coverage.visible_fraction);
-    const std::vector<Task> windows = field_tasks(*of_field, scanner, field);
-    const std::vector<Task> rows = coverage_tasks(viewer, t);
+    const CoverageEntries entries(dir.file("coverage.h5"));
+    const Layout& layout = field.info().layout;
+    const SceneOptions options = scene_options(config);
+    const NearWalls near = near_walls(
+        layout, t.walls,
+        options.scanner.range_max_m + eye_margin_m(options.partition_m) + config.site.snap_m);
+    const auto site = [&](std::int64_t patch) {
+        PatchSite out;
+        for (std::int64_t i = near.begin[at(patch)]; i < near.begin[at(patch) + 1]; ++i) {
+            const std::int32_t w = near.wall[at(i)];
+            out.number.push_back(w);
+            out.walls.push_back(t.walls[at(w)]);
+            for (const Side side : {left, right}) {
+                out.first[side].push_back(t.pieces.count(w, side) > 0 ? t.pieces.first(w, side)
+                                                                      : -1);
+            }
+            out.count.push_back(std::max(t.pieces.count(w, left), t.pieces.count(w, right)));
+        }
+        return out;
+    };
+    Scenes scenes(layout, site, options, static_cast<int>(layout.patches()));
+    const std::vector<Task> windows = field_tasks(scenes, field);
+    const std::vector<Task> rows = coverage_tasks(scenes, t, entries);
     fmt::print("stage,task,items,seconds\n");
     print("field", windows);
     print("coverage", rows);

@@ -148,6 +148,10 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
         !std::filesystem::exists(dir.file("coverage.h5"))) {
         make_tables(config, dir.path(), keys.tables, threads, ranks, progress);
     } else {
+        ranks.lead([&] {  // what an end right behind the tables left
+            std::error_code ignored;
+            std::filesystem::remove_all(dir.file("work"), ignored);
+        });
         progress.note("tables       of this job are complete in the folder and used as they are");
     }
     std::string text;

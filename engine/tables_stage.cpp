@@ -24,14 +24,12 @@ using Json = nlohmann::ordered_json;
 
 // What the field cost in operations. For the rays "steps" are rays.
 Json field_summary(const Config& config, const FieldCounts& c) {
-    Json j = {{"kernel", config.visibility.kernel}, {"cells", c.cells}, {"packets", c.packets}};
+    Json j = {{"kernel", config.visibility.kernel}, {"cells", c.cells}};
     const double cells = static_cast<double>(std::max<std::int64_t>(1, c.cells));
     if (config.visibility.kernel == "embree") {
+        j["packets"] = c.packets;
         j["rays"] = c.steps;
         j["rays_per_view"] = static_cast<double>(c.steps) / cells;
-    } else {
-        j["steps"] = c.steps;
-        j["walls_met"] = c.walls;
     }
     return {{"field_work", j}};
 }

@@ -401,7 +401,9 @@ std::string checked_hash(const std::filesystem::path& path) {
     in.read(trailer.data(), static_cast<std::streamsize>(trailer_size));
     if (!in) damaged(path, "cannot be read to its end");
     const std::string label = trailer_label;
-    if (trailer.compare(0, label.size(), label) != 0) damaged(path, "cut short or overwritten");
+    if (trailer.compare(0, label.size(), label) != 0 || trailer.back() != '\n') {
+        damaged(path, "cut short or overwritten");
+    }
     const std::string said = trailer.substr(label.size(), 64);
     if (said != hash.hex()) damaged(path, "its content does not have the hash that it ends with");
     const std::lock_guard lock(guard);

@@ -169,20 +169,27 @@ TEST_F(BadInput, SizesThatDoNotFit) {
     const std::string site = collection({polygon(square), polygon(far_square)});
     expect(2, {"field.cell_m", "5000", "larger than the site"}, good_job, site,
            {"field.cell_m=5000"});
-    expect(2, {"field.cell_m", "GB", "crop_m"}, good_job, site, {"field.cell_m=1e-6"});
+    expect(2, {"field.cell_m", "1.8e+15 cells", "crop_m"}, good_job, site, {"field.cell_m=1e-6"});
     expect(3, {"crop_m"}, good_job, site, {"site.crop_m=[500,500,600,600]"});
 }
 
 // What shows only after the site was read leaves nothing behind either, and once the job is
-// corrected it runs in the same folder.
+// corrected it runs in the same folder. What shows only after the field was made leaves that.
 TEST_F(BadInput, LateErrorsDoNotSpoilTheFolder) {
     const std::string site = collection({polygon(square), polygon(far_square)});
-    expect(2, {"field.threshold_rad", "6.2"}, good_job, site, {"field.threshold_rad=6.2"});
     expect(2, {"plan.required", "(5, 5)"}, good_job, site, {"plan.required=[[5,5]]"});
     vfplan_process({"run", scratch / "job.toml", "--out", scratch / "again", "--set",
                     "plan.required=[[5,5]]"});
     vfplan_expect(0, {"run", scratch / "job.toml", "--out", scratch / "again", "--set",
                       "plan.required=[[15,5]]"});
+    const Words blind = {"run", scratch / "job.toml", "--out", scratch / "blind", "--set",
+                         "field.threshold_rad=6.2"};
+    const Output late = vfplan_expect(2, blind);
+    EXPECT_NE(late.err.find("field.threshold_rad = 6.2"), std::string::npos) << late.err;
+    expect_words(2, {"field.threshold_rad"}, blind);  // nor does it become more
+    vfplan_expect(0, {"run", scratch / "job.toml", "--out", scratch / "blind", "--fresh"});
+    vfplan_expect(0, {"run", scratch / "job.toml", "--out", scratch / "seeing"});
+    expect_same_run(scratch / "blind", scratch / "seeing");
 }
 
 TEST_F(BadInput, OutputFolder) {

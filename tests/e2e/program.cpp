@@ -1,15 +1,18 @@
 #include "program.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <memory>
 #include <sstream>
+#include <thread>
 
 namespace vfplan::test {
 namespace {
@@ -71,7 +74,12 @@ std::vector<std::string> Scratch::names() const {
     return out;
 }
 
-Output run_program(const std::string& name, const Words& words, const Environment& environment) {
+namespace {
+
+// `meanwhile(pid)` is called while the program runs.
+template <class F>
+Output run_beside(const std::string& name, const Words& words, const Environment& environment,
+                  F&& meanwhile) {
     const File out(std::tmpfile());
     const File err(std::tmpfile());
     std::vector<char*> argv = {const_cast<char*>(name.c_str())};
@@ -85,10 +93,24 @@ Output run_program(const std::string& name, const Words& words, const Environmen
         execvp(name.c_str(), argv.data());
         _exit(127);
     }
+    meanwhile(child);
     int status = 0;
     waitpid(child, &status, 0);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(out.get()),
             text_of(err.get())};
+}
+
+}  // namespace
+
+Output run_program(const std::string& name, const Words& words, const Environment& environment) {
+    return run_beside(name, words, environment, [](pid_t) {});
+}
+
+Output vfplan_signalled(int signal, double after_s, const Words& words) {
+    return run_beside(VFPLAN_BINARY, words, {}, [&](pid_t child) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(after_s));
+        kill(child, signal);  // a child that has ended is not yet waited for, so this is safe
+    });
 }
 
 Output vfplan_process(const Words& words, const Environment& environment) {
@@ -187,6 +209,41 @@ void expect_same_bytes(const Path& a, const Path& b) {
     EXPECT_TRUE(differ.empty() && one.size() == two.size())
         << a << " and " << b << " (" << one.size() << " and " << two.size()
         << " files) differ in:" << differ;
+}
+
+void expect_same_run(const Path& a, const Path& b) {
+    const auto files_in = [](const Path& dir) {
+        std::map<std::string, std::string> out;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(dir)) {
+            const std::string name = entry.path().lexically_relative(dir).string();
+            if (entry.is_directory()) {
+                out[name] = "folder";
+            } else if (name != "summary.json" && name != "provenance.json") {
+                out[name] = read_bytes(entry.path());
+            }
+        }
+        return out;
+    };
+    const auto one = files_in(a);
+    const auto two = files_in(b);
+    std::string differ;
+    for (const auto& [name, bytes] : one) {
+        const auto other = two.find(name);
+        if (other == two.end() || other->second != bytes) differ += " " + name;
+    }
+    for (const auto& [name, bytes] : two) {
+        if (!one.contains(name)) differ += " " + name;
+    }
+    EXPECT_TRUE(differ.empty()) << a << " and " << b << " differ in:" << differ;
+    EXPECT_EQ(read_json(a / "summary.json")["result_sha256"],
+              read_json(b / "summary.json")["result_sha256"]);
+}
+
+void flip_a_bit(const Path& file, double where) {
+    std::string bytes = read_bytes(file);
+    const auto i = static_cast<std::size_t>(where * static_cast<double>(bytes.size() - 1));
+    bytes[i] = static_cast<char>(bytes[i] ^ 1);
+    std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
 }
 
 std::string generated(const Scratch& scratch, const std::string& kind, const Words& more) {

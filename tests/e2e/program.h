@@ -51,6 +51,10 @@ Output vfplan_expect(int code, const Words& words, const Environment& environmen
 Output run_program(const std::string& name, const Words& words,
                    const Environment& environment = {});
 
+// Starts `vfplan words...`, sends it a signal after `after_s` seconds unless it has ended by then,
+// and waits.
+Output vfplan_signalled(int signal, double after_s, const Words& words);
+
 // `all` and then `--set key=value` for each of `sets`.
 Words with_sets(Words all, const std::vector<std::string>& sets);
 
@@ -71,6 +75,11 @@ Csv read_csv(const Path& file);
 std::map<std::string, std::string> lasting_bytes(const Path& dir);
 // Fails for every file that the two folders do not share byte for byte.
 void expect_same_bytes(const Path& a, const Path& b);
+// The same for every file but summary.json and provenance.json, which hold times and the machine;
+// and the same result by summary.json.
+void expect_same_run(const Path& a, const Path& b);
+// Changes one bit of the byte at this share of a file's length.
+void flip_a_bit(const Path& file, double where);
 
 // Writes a generated site into the scratch folder; returns its path.
 std::string generated(const Scratch& scratch, const std::string& kind, const Words& more = {});

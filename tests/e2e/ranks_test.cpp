@@ -144,6 +144,19 @@ TEST(RanksUnderMpirun, WholeRunHasTheSameResult) {
     expect_same_bytes(scratch / "one", scratch / "three");
     EXPECT_EQ(read_json(scratch / "one/summary.json")["result_sha256"],
               read_json(scratch / "three/summary.json")["result_sha256"]);
+    // Other tiles, shared by other numbers of ranks.
+    for (const auto& [ranks, side] : {std::pair(2, "64"), std::pair(3, "100")}) {
+        const std::string dir = scratch / ("tiles" + std::string(side));
+        const Output tiles = mpirun(ranks, {VFPLAN_BINARY, "run", job, "--out", dir, "--threads",
+                                            "1", "--set", "field.tile_cells=" + std::string(side)});
+        EXPECT_EQ(tiles.code, 0) << tiles.err;
+        EXPECT_EQ(read_json(Path(dir) / "summary.json")["result_sha256"],
+                  read_json(scratch / "one/summary.json")["result_sha256"]);
+        for (const char* name : {"coverage.h5", "plan.h5", "stations.csv", "links.csv"}) {
+            EXPECT_EQ(read_bytes(Path(dir) / name), read_bytes(Path(scratch / "one") / name))
+                << name << ", tiles of " << side;
+        }
+    }
     const Output bad = mpirun(3, {VFPLAN_BINARY, "run", job, "--set", "field.cell_m=-1"});
     EXPECT_EQ(bad.code, 2);
     EXPECT_EQ(count_of("vfplan: ", bad.err), 1U) << bad.err;

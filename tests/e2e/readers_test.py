@@ -4,7 +4,9 @@ usage: readers_test.py VFPLAN CONFIGS
 """
 
 import csv
+import hashlib
 import json
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -14,6 +16,15 @@ from pathlib import Path
 import h5py
 import numpy as np
 import scipy.sparse
+
+try:  # python3-anndata
+    import anndata.experimental
+except ImportError:
+    anndata = None
+try:  # python3-gdal
+    from osgeo import gdal
+except ImportError:
+    gdal = None
 
 VFPLAN, CONFIGS = Path(sys.argv[1]), Path(sys.argv[2])
 
@@ -68,9 +79,10 @@ class Readers(unittest.TestCase):
         folder = Path(cls.folder.name)
         formats = "output.formats=['csv']"
         crop = "site.crop_m=[0,0,400,292]"
+        tiles = "field.tile_cells=64"
         cls.runs = {
-            "town": Run(folder, "town", [crop, "field.cell_m=4", formats]),
-            "flat": Run(folder, "flat", ["field.cell_m=0.1", formats]),
+            "town": Run(folder, "town", [crop, "field.cell_m=4", tiles, formats]),
+            "flat": Run(folder, "flat", ["field.cell_m=0.1", tiles, formats]),
         }
 
     @classmethod
@@ -85,7 +97,7 @@ class Readers(unittest.TestCase):
         keys = set()
         for file in (run.field, run.coverage, run.plan):
             self.assertEqual(file.attrs["complete"], 1)
-            self.assertEqual(file.attrs["format_version"], 1)
+            self.assertEqual(file.attrs["format_version"], 2)
             self.assertTrue(text(file.attrs["title"]))
             keys.add(text(file.attrs["key"]))
         self.assertEqual(len(keys), 1)
@@ -224,6 +236,94 @@ class Readers(unittest.TestCase):
         seen = (run.table[:, pieces] > 0).toarray()
         self.assertLessEqual(seen.sum(axis=1).max(), 1)
         self.assertGreaterEqual(seen.sum(axis=0).min(), 1)
+
+    @on_every_run
+    def test_the_field_is_its_tiles(self, run):
+        vf = run.field["vf"]
+        self.assertTrue(vf.is_virtual)
+        shards = sorted(run.dir.glob("shards/field-64-*.h5"))
+        self.assertEqual(len(shards), len(run.field["tile_status"]))
+        self.assertGreater(len(shards), 1)
+        met = np.zeros(vf.shape, bool)
+        for path in shards:
+            with h5py.File(path, "r") as shard:
+                part = shard["vf"]
+                y, x = shard.attrs["y_begin"], shard.attrs["x_begin"]
+                place = np.s_[y : y + part.shape[0], x : x + part.shape[1]]
+                np.testing.assert_array_equal(vf[place], part[:])
+                self.assertFalse(met[place].any())
+                met[place] = True
+                self.assertEqual(shard["closed"].shape, part.shape)
+        self.assertTrue(met.all())
+
+    @on_every_run
+    def test_chunks_are_packed_as_they_say(self, run):
+        for path in run.dir.glob("shards/*.h5"):
+            with h5py.File(path, "r") as shard:
+                names = []
+                shard.visititems(lambda n, o: names.append(n) if isinstance(o, h5py.Dataset) else 0)
+                for name in names:
+                    data = shard[name]
+                    data[...]  # undoes the filters and checks the sums
+                    if data.size >= 256:
+                        self.assertEqual(
+                            (data.compression, data.shuffle, data.fletcher32), ("gzip", True, True)
+                        )
+        for group in ("walls", "pieces", "candidates", "coverage"):
+            for name, data in run.coverage[group].items():
+                self.assertEqual(len(data[...]), len(data), name)
+
+    @on_every_run
+    def test_files_end_with_their_hash(self, run):
+        files = [*run.dir.glob("*.h5"), *run.dir.glob("shards/*.h5")]
+        self.assertGreater(len(files), 4)
+        for path in files:
+            content, line = path.read_bytes()[:-80], path.read_bytes()[-80:]
+            want = f"\nvfplan sha256 {hashlib.sha256(content).hexdigest()}\n".encode()
+            self.assertEqual(line, want, path)
+        for index, pattern in ((run.field, "field-*"), (run.coverage, "coverage-*")):
+            listed = [bytes(row).hex() for row in index["tile_sha256"][:]]
+            shards = sorted(run.dir.glob(f"shards/{pattern}.h5"))
+            self.assertEqual(
+                listed, [hashlib.sha256(p.read_bytes()[:-80]).hexdigest() for p in shards]
+            )
+
+    @unittest.skipUnless(anndata, "no anndata here (python3-anndata)")
+    @on_every_run
+    def test_coverage_by_anndata(self, run):
+        table = anndata.experimental.read_elem(run.coverage["coverage"])
+        self.assertTrue(scipy.sparse.isspmatrix_csr(table))
+        self.assertEqual((table != run.table).nnz, 0)
+
+    def expect_raster(self, run, size, transform, band):
+        vf, cell = run.field["vf"][:], run.field["vf"].attrs["cell_m"]
+        self.assertEqual(size, (vf.shape[1], vf.shape[0]))
+        north_west = (run.field["x"][0] - cell / 2, run.field["y"][-1] + cell / 2)
+        np.testing.assert_allclose(
+            transform, (north_west[0], cell, 0, north_west[1], 0, -cell), atol=1e-6
+        )
+        if band is not None:  # GDAL's first row is the northernmost
+            np.testing.assert_array_equal(band, vf[::-1])
+
+    @unittest.skipUnless(gdal, "no GDAL for Python here (python3-gdal)")
+    @on_every_run
+    def test_field_by_gdal(self, run):
+        gdal.UseExceptions()
+        raster = gdal.Open(f'NETCDF:"{run.dir}/field.h5":vf')
+        band = raster.GetRasterBand(1).ReadAsArray()
+        size = (raster.RasterXSize, raster.RasterYSize)
+        self.expect_raster(run, size, raster.GetGeoTransform(), band)
+
+    @unittest.skipUnless(shutil.which("gdalinfo"), "no gdalinfo here (gdal-bin)")
+    @on_every_run
+    def test_field_by_gdalinfo(self, run):
+        said = subprocess.run(
+            ["gdalinfo", "-json", f'NETCDF:"{run.dir}/field.h5":vf'],
+            check=True,
+            capture_output=True,
+        )
+        info = json.loads(said.stdout)
+        self.expect_raster(run, tuple(info["size"]), info["geoTransform"], None)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 // `verify` says no to a plan that somebody changed.
 #include <algorithm>
+#include <fstream>
 #include <functional>
 
 #include "io/tables.h"
@@ -22,13 +23,14 @@ protected:
 
     static std::string run() { return *scratch / "run"; }
 
-    // Verifies a copy of the run after `change`; its answer.
-    static Output after(const std::function<void(const Path&)>& change) {
+    // Verifies (or plans) in a copy of the run after `change`; its answer.
+    static Output after(const std::function<void(const Path&)>& change,
+                        const char* command = "verify") {
         const Path copy = *scratch / "copy";
         std::filesystem::remove_all(copy);
-        std::filesystem::copy(run(), copy);
+        std::filesystem::copy(run(), copy, std::filesystem::copy_options::recursive);
         change(copy);
-        return vfplan_process({"verify", copy});
+        return vfplan_process({command, copy});
     }
 
     static Output after_plan(const std::function<void(PlanTable&)>& change) {
@@ -110,18 +112,72 @@ TEST_F(Verify, NoWhenACoveredPieceIsSaidToHaveNoViewpoint) {
 
 TEST_F(Verify, NoWhenTheCertificateNamesPiecesOfOneStation) {
     expect_no(after_plan([](PlanTable& t) {
-        const CoverageTables c = read_coverage(run() + "/coverage.h5");
-        t.plan.bound_pieces = {c.table.row_begin(0)[0].piece, c.table.row_begin(0)[1].piece};
+        t.plan.bound_pieces = CoverageEntries(run() + "/coverage.h5").pieces(0, 2);
         std::sort(t.plan.bound_pieces.begin(), t.plan.bound_pieces.end());
     }));
 }
 
+// A whole field of this job by its hashes, with other values.
 TEST_F(Verify, NoWhenTheFieldIsAnother) {
     expect_no(after([](const Path& dir) {
-        FieldTable field = read_field(dir / "field.h5");
-        for (float& v : field.vf_rad) v *= 0.9F;
-        write_field(dir / "field.h5", field);
+        const FieldFile field(dir / "field.h5");
+        const Layout layout = field.info().layout;
+        std::vector<Path> tiles;
+        for (const auto& entry : std::filesystem::directory_iterator(dir / "shards")) {
+            if (entry.path().filename().string().rfind("field-", 0) == 0) {
+                tiles.push_back(entry.path());
+            }
+        }
+        std::sort(tiles.begin(), tiles.end());
+        ASSERT_EQ(tiles.size(), static_cast<std::size_t>(layout.tiles()));
+        for (std::size_t t = 0; t < tiles.size(); ++t) {
+            std::vector<float> vf;
+            h5::Dims shape;
+            std::string key;
+            {
+                const h5::Reader in(tiles[t]);
+                vf = in.read<float>("vf");
+                shape = in.dims("vf");
+                key = in.text("/", "key");
+            }
+            for (float& v : vf) v *= 0.9F;
+            h5::Writer out(tiles[t]);
+            out.attribute("/", "key", key);
+            out.write("vf", vf, shape);
+            out.attribute("/", "complete", std::int64_t{1});
+            out.close();
+        }
+        write_field_index(dir / "field.h5", field.info(), tiles);
     }));
+}
+
+TEST_F(Verify, DamagedShardsAreNamed) {
+    std::vector<std::string> shards;
+    for (const auto& entry : std::filesystem::directory_iterator(run() + "/shards")) {
+        shards.push_back(entry.path().filename().string());
+    }
+    ASSERT_GE(shards.size(), 2U);
+    for (const std::string& name : shards) {
+        const auto flip = [&](const Path& dir) {
+            std::string bytes = read_bytes(dir / "shards" / name);
+            bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+            std::ofstream(dir / "shards" / name, std::ios::binary) << bytes;
+        };
+        const auto cut = [&](const Path& dir) {
+            std::filesystem::resize_file(dir / "shards" / name, 500);
+        };
+        const auto remove = [&](const Path& dir) {
+            std::filesystem::remove(dir / "shards" / name);
+        };
+        for (const auto& damage :
+             std::vector<std::function<void(const Path&)>>{flip, cut, remove}) {
+            for (const char* command : {"verify", "plan"}) {
+                const Output o = after(damage, command);
+                EXPECT_EQ(o.code, 4) << command << " " << name << "\n" << o.out << o.err;
+                EXPECT_NE(o.err.find(name), std::string::npos) << command << "\n" << o.err;
+            }
+        }
+    }
 }
 
 // Another job's plan has other candidates and pieces.

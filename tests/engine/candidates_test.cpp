@@ -1,6 +1,4 @@
 // Which points of a skeleton become candidates, and in which order (SPEC section 3).
-#include "engine/candidates.h"
-
 #include <gtest/gtest.h>
 
 #include <set>
@@ -12,8 +10,11 @@ namespace vfplan {
 namespace {
 
 using test::box_ring;
+using test::CandidateOptions;
+using test::CandidateResult;
 using test::cells_of;
 using test::hall;
+using test::Lines;
 using test::overlap_of;
 using test::ring_of;
 using test::row_has;
@@ -29,7 +30,7 @@ std::vector<std::int64_t> sorted(std::vector<std::int64_t> v) {
 
 TEST(Candidates, JointsBecomeCandidates) {
     const World w = hall();
-    const RidgeGraph g = w.drawn({{{3, 5}, {17, 5}}, {{6, 2}, {6, 8}}, {{14, 5}, {14, 8}}});
+    const Lines g = w.drawn({{{3, 5}, {17, 5}}, {{6, 2}, {6, 8}}, {{14, 5}, {14, 8}}});
     const CandidateResult r = w.candidates(g, unsplit);
     EXPECT_EQ(cells_of(r.candidates, joint), (std::vector{w.cell(6, 5), w.cell(14, 5)}));
     EXPECT_EQ(r.candidates.size(), 2U);  // from there all is seen: no ends, no middles
@@ -39,7 +40,7 @@ TEST(Candidates, JointsBecomeCandidates) {
         const Candidate& c = r.candidates[i];
         EXPECT_EQ(c.at, w.grid.centre(c.cell));
         EXPECT_EQ(c.vf_rad, w.field[static_cast<std::size_t>(c.cell)]);
-        const CoverageRow row = w.viewer->row(c.at);
+        const CoverageRow row = w.row(c.at);
         ASSERT_EQ(r.table.row_end(static_cast<std::int64_t>(i)) -
                       r.table.row_begin(static_cast<std::int64_t>(i)),
                   static_cast<std::ptrdiff_t>(row.size()));
@@ -66,7 +67,7 @@ TEST(Candidates, ARidgeWithoutJointGivesItsMiddleByArcLength) {
 
 TEST(Candidates, APureRingGivesTwoOppositePoints) {
     const World w{{}, {box_ring(0, 0, 40, 40), box_ring(12, 12, 28, 28)}};
-    const RidgeGraph g = w.drawn(
+    const Lines g = w.drawn(
         {{{10, 6}, {30, 6}, {34, 10}, {34, 30}, {30, 34}, {10, 34}, {6, 30}, {6, 10}, {10, 6}}});
     ASSERT_EQ(g.ridges.size(), 1U);
     ASSERT_TRUE(g.ridges[0].ring);
@@ -93,7 +94,7 @@ TEST(Candidates, ARidgeEndIsKeptExactlyWhereItAddsCoverage) {
                             {10, 7},
                             {10, 10},
                             {0, 10}})}};
-    const RidgeGraph g = w.drawn({{{2, 5}, {15.5, 5}, {18.5, 8}, {18.5, 12}}, {{5, 5}, {5, 8}}});
+    const Lines g = w.drawn({{{2, 5}, {15.5, 5}, {18.5, 8}, {18.5, 12}}, {{5, 5}, {5, 8}}});
     const CandidateResult r = w.candidates(g, unsplit);
     EXPECT_EQ(cells_of(r.candidates, joint), std::vector{w.cell(5, 5)});
     EXPECT_EQ(cells_of(r.candidates, end), std::vector{w.cell(18.5, 12)});
@@ -103,14 +104,14 @@ TEST(Candidates, ARidgeEndIsKeptExactlyWhereItAddsCoverage) {
         World::Setting s;
         s.scanner.range_max_m = range;
         const World h = hall(30, 10, s);
-        const RidgeGraph plus =
+        const Lines plus =
             h.drawn({{{6, 5}, {28, 5}}, {{12, 5}, {12, 2}}, {{12, 5}, {12, 8}}});
         const CandidateResult found = h.candidates(plus, overlap_of(0.3));
-        const CoverageRow from_joint = h.viewer->row(h.grid.centre(h.cell(12, 5)));
+        const CoverageRow from_joint = h.row(h.grid.centre(h.cell(12, 5)));
         std::vector<std::int64_t> want;
         for (const auto& [x, y] :
              {std::pair(6., 5.), std::pair(28., 5.), std::pair(12., 2.), std::pair(12., 8.)}) {
-            const CoverageRow row = h.viewer->row(h.grid.centre(h.cell(x, y)));
+            const CoverageRow row = h.row(h.grid.centre(h.cell(x, y)));
             if (std::any_of(row.begin(), row.end(),
                             [&](const Seen& k) { return !row_has(from_joint, k.piece); })) {
                 want.push_back(h.cell(x, y));
@@ -157,7 +158,7 @@ TEST(Candidates, NeighboursAlongRidgesOverlapEnough) {
     std::size_t pairs = 0;
     for (const Real& site : real_sites()) {
         const World& w = *site.world;
-        const RidgeGraph g = w.ridges();
+        const Lines g = w.ridges();
         const CandidateResult r = w.candidates(g, site.options);
         EXPECT_EQ(r.report.ridges_short_of_overlap, 0);
         std::set<std::int64_t> chosen;
@@ -165,7 +166,7 @@ TEST(Candidates, NeighboursAlongRidgesOverlapEnough) {
             if (c.kind <= split) chosen.insert(c.cell);
         }
         for (const Ridge& ridge : g.ridges) {
-            CellPath path = ridge.cells;
+            std::vector<std::int64_t> path = ridge.cells;
             const auto joint_at = [&](int k) {
                 return g.joints[static_cast<std::size_t>(ridge.joint[k])];
             };
@@ -178,8 +179,8 @@ TEST(Candidates, NeighboursAlongRidgesOverlapEnough) {
                 if (last >= 0) {
                     ++pairs;
                     EXPECT_GE(
-                        overlap(site.options.ratio, w.pieces, w.viewer->row(w.grid.centre(last)),
-                                w.viewer->row(w.grid.centre(c))),
+                        overlap(site.options.ratio, w.pieces, w.row(w.grid.centre(last)),
+                                w.row(w.grid.centre(c))),
                         site.options.threshold);
                 }
                 last = c;
@@ -191,7 +192,7 @@ TEST(Candidates, NeighboursAlongRidgesOverlapEnough) {
 
 TEST(Candidates, SameForAnyNumberOfThreads) {
     for (const Real& site : real_sites()) {
-        const RidgeGraph g = site.world->ridges();
+        const Lines g = site.world->ridges();
         const CandidateResult one = site.world->candidates(g, site.options, 1);
         const CandidateResult two = site.world->candidates(g, site.options, 2);
         ASSERT_EQ(one.candidates.size(), two.candidates.size());
@@ -216,7 +217,7 @@ TEST(Candidates, SameForAnyNumberOfThreads) {
     }
 }
 
-TEST(Candidates, ByYThenXAndTheUsersPointsLastAsGiven) {
+TEST(Candidates, ByPatchThenYThenXAndTheUsersPointsLastAsGiven) {
     std::vector<Real> sites = real_sites();
     Real& site = sites[2];
     site.options.required = {{45.2, 27.1}, {3.3, 3.4}};
@@ -227,15 +228,19 @@ TEST(Candidates, ByYThenXAndTheUsersPointsLastAsGiven) {
     for (std::size_t i = 1; i < own; ++i) {
         const Vec2d& a = r.candidates[i - 1].at;
         const Vec2d& b = r.candidates[i].at;
-        EXPECT_LT(std::pair(a.y(), a.x()), std::pair(b.y(), b.x()));
+        const auto patch = [&](const Vec2d& p) {
+            const Layout& layout = site.world->layout;
+            return layout.patch_of(layout.cell_at(p));
+        };
+        EXPECT_LT(std::tuple(patch(a), a.y(), a.x()), std::tuple(patch(b), b.y(), b.x()));
     }
     for (std::size_t i = 0; i < 4; ++i) {
         const Candidate& c = r.candidates[own + i];
         EXPECT_EQ(c.kind, i < 2 ? required : existing);
         EXPECT_EQ(c.at, i < 2 ? site.options.required[i] : site.options.existing[i - 2]);
         EXPECT_EQ(c.cell, -1);
-        EXPECT_FLOAT_EQ(c.vf_rad, static_cast<float>(site.world->viewer->look(c.at).vf_rad));
-        const CoverageRow row = site.world->viewer->row(c.at);
+        EXPECT_FLOAT_EQ(c.vf_rad, static_cast<float>(site.world->vf_rad(c.at)));
+        const CoverageRow row = site.world->row(c.at);
         EXPECT_EQ(r.table.begin[own + i + 1] - r.table.begin[own + i],
                   static_cast<std::int64_t>(row.size()));
     }

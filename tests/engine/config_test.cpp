@@ -43,6 +43,7 @@ Config unusual() {
         "unit_m = 0.0254\nsnap_m = 0.002\nmargin_m = 7\nclearance_m = 0.3\ninvalid = 'drop'\n"
         "[scanner]\nrange_min_m = 0.1\nrange_max_m = 33.3\nmax_incidence_deg = 71\n"
         "[visibility]\nkernel = 'embree'\nrays = 64\n[field]\ncell_m = 0.07\nthreshold_rad = 0.3\n"
+        "tile_cells = 128\n"
         "[coverage]\npartition_m = 0.333\nvisible_fraction = 0.7\n"
         "[overlap]\nratio = 'union_ang'\nthreshold = 0.15\n"
         "[plan]\nmethod = 'greedy'\nloops = false\ntime_limit_s = 1e7\n"
@@ -197,6 +198,9 @@ TEST(Config, ParametersMustFitEachOther) {
     }
     for (const char* rays : {"8", "100", "1"}) {
         expect_words(message("", {std::string("visibility.rays=") + rays}), {"power of two"});
+    }
+    for (const char* side : {"66", "101"}) {
+        expect_words(message("", {std::string("field.tile_cells=") + side}), {side, "multiple of 4"});
     }
     EXPECT_EQ(message("visibility.rays = 16\n"), "");
     expect_words(message("plan.method = \"certified\"\n"), {"must be one of", "refined"});

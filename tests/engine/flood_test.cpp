@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <set>
+#include <tuple>
 
 #include "tests/kernels/raster_art.h"
 
@@ -13,6 +16,8 @@ namespace {
 using test::draw;
 using test::Picture;
 
+constexpr std::int32_t far_enough = 1 << 20;
+
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 TEST(Flood, StepsOfTenAndFourteenAroundObstacles) {
@@ -21,7 +26,7 @@ TEST(Flood, StepsOfTenAndFourteenAroundObstacles) {
                             "###..",  //
                             "....#"});
     const Raster<std::uint8_t> open(p.set.size(), 0);
-    Flood flood(p.grid, p.set, open);
+    Flood flood(p.grid, p.set, open, far_enough);
     flood.add_source(0, 7);
     flood.run();
     EXPECT_EQ(flood.distance(0), 0);
@@ -44,7 +49,7 @@ TEST(Flood, ClosedLinksAreNotCrossed) {
         Raster<std::uint8_t> closed(5, 0);
         closed[1] = 1U << 0;
         closed[2] = 1U << 4;
-        Flood flood(p.grid, p.set, closed);
+        Flood flood(p.grid, p.set, closed, far_enough);
         flood.add_source(side == 0 ? 0 : 4, 0);
         flood.run();
         EXPECT_EQ(flood.distance(side == 0 ? 1 : 2), side == 0 ? 10 : 20);
@@ -52,18 +57,18 @@ TEST(Flood, ClosedLinksAreNotCrossed) {
     }
 }
 
-TEST(Flood, TiesFallToTheSmallerCellAndTheFirstName) {
+TEST(Flood, TiesFallToTheLeastName) {
     const Picture p = draw({"#####"});
     const Raster<std::uint8_t> open(5, 0);
-    Flood flood(p.grid, p.set, open);
+    Flood flood(p.grid, p.set, open, far_enough);
     flood.add_source(4, 1);
     flood.add_source(0, 2);
     flood.add_source(0, 3);
     flood.run();
     EXPECT_EQ(flood.source(0), 2);
-    EXPECT_EQ(flood.source(2), 2);  // as far from both: from cell 1, not from cell 3
-    EXPECT_EQ(flood.path_to(2), (std::vector<std::int64_t>{0, 1, 2}));
-    EXPECT_EQ(flood.source(3), 1);
+    EXPECT_EQ(flood.source(2), 1);  // as far from both: that of the lesser name
+    EXPECT_EQ(flood.path_to(2), (std::vector<std::int64_t>{4, 3, 2}));
+    EXPECT_EQ(flood.source(1), 2);
 }
 
 TEST(Flood, EqualsRelaxingUntilNothingChanges) {
@@ -81,7 +86,7 @@ TEST(Flood, EqualsRelaxingUntilNothingChanges) {
                 other = static_cast<std::uint8_t>(other | 1U << (k + 4));
             }
         }
-        Flood flood(p.grid, p.set, closed);
+        Flood flood(p.grid, p.set, closed, far_enough);
         std::vector<std::int64_t> far(p.set.size(), Flood::unreached);
         for (int s = 0; s < 3; ++s) {
             const auto c = static_cast<std::int64_t>(random() % p.set.size());
@@ -124,6 +129,178 @@ TEST(Flood, EqualsRelaxingUntilNothingChanges) {
             EXPECT_EQ(flood.source(c), flood.source(path.front()));
         }
     }
+}
+
+// A random domain with walls between its cells, and sources in it.
+struct Land {
+    Picture domain;
+    Raster<std::uint8_t> closed;
+    std::vector<std::pair<std::int64_t, std::int32_t>> sources;  // cell and name
+
+    Land(std::mt19937_64& random, std::int32_t nx, std::int32_t ny, int count)
+        : domain(test::random_domain(random, nx, ny)), closed(domain.set.size(), 0) {
+        const Grid& grid = domain.grid;
+        for (std::int64_t c = 0; c < grid.size(); ++c) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const std::int32_t x = grid.ix(c) + around_dx[k];
+                const std::int32_t y = grid.iy(c) + around_dy[k];
+                if (!grid.inside(x, y) || random() % 7 != 0) continue;
+                closed[at(c)] = static_cast<std::uint8_t>(closed[at(c)] | 1U << k);
+                auto& other = closed[at(grid.id(x, y))];
+                other = static_cast<std::uint8_t>(other | 1U << (k + 4));
+            }
+        }
+        for (std::int32_t name = 0; name < count; ++name) {
+            const auto c = static_cast<std::int64_t>(random() % domain.set.size());
+            if (domain.set[at(c)] != 0) sources.emplace_back(c, name);
+        }
+        std::shuffle(sources.begin(), sources.end(), random);
+    }
+    Flood flooded(std::int32_t most) const {
+        Flood flood(domain.grid, domain.set, closed, most);
+        for (const auto& [cell, name] : sources) flood.add_source(cell, name);
+        flood.run();
+        return flood;
+    }
+};
+
+// Dijkstra as in the book, with an order over (distance, name of the source) alone; the way back
+// leads over the neighbour with the least number that is nearer by the step and has the source.
+struct Book {
+    std::vector<std::tuple<std::int32_t, std::int32_t>> best;  // distance and source
+    std::vector<std::int64_t> before;
+};
+Book by_the_book(const Land& land, std::int32_t most) {
+    const Picture& p = land.domain;
+    Book out;
+    out.best.assign(p.set.size(), {Flood::unreached, -1});
+    out.before.assign(p.set.size(), -1);
+    std::set<std::tuple<std::int32_t, std::int32_t, std::int64_t>> open;
+    for (const auto& [cell, name] : land.sources) {
+        auto& here = out.best[at(cell)];
+        if (std::get<0>(here) == 0 && std::get<1>(here) < name) continue;
+        here = {0, name};
+        open.emplace(0, name, cell);
+    }
+    const auto neighbour = [&](std::int64_t c, std::size_t k) -> std::int64_t {
+        const std::int32_t x = p.grid.ix(c) + around_dx[k];
+        const std::int32_t y = p.grid.iy(c) + around_dy[k];
+        if (!p.has(x, y) || (land.closed[at(c)] >> k & 1U) != 0) return -1;
+        return p.grid.id(x, y);
+    };
+    while (!open.empty()) {
+        const auto [far, name, cell] = *open.begin();
+        open.erase(open.begin());
+        if (out.best[at(cell)] != std::tuple(far, name)) continue;
+        for (std::size_t k = 0; k < 8; ++k) {
+            const std::int64_t n = neighbour(cell, k);
+            const std::tuple to(far + (k % 2 == 0 ? 10 : 14), name);
+            if (n < 0 || std::get<0>(to) > most || out.best[at(n)] <= to) continue;
+            // An unreached cell sorts behind all, for its distance.
+            out.best[at(n)] = to;
+            open.emplace(std::get<0>(to), name, n);
+        }
+    }
+    for (std::int64_t c = 0; c < p.grid.size(); ++c) {
+        const auto [far, name] = out.best[at(c)];
+        if (far == Flood::unreached || far == 0) continue;
+        for (std::size_t k = 0; k < 8 && out.before[at(c)] < 0; ++k) {
+            const std::int64_t n = neighbour(c, k);
+            if (n < 0) continue;
+            if (out.best[at(n)] == std::tuple(far - (k % 2 == 0 ? 10 : 14), name)) {
+                out.before[at(c)] = n;
+            }
+        }
+    }
+    return out;
+}
+
+TEST(Flood, EqualsDijkstraWithTheSameTieRule) {
+    std::mt19937_64 random(10);
+    std::int64_t reached = 0;
+    for (int round = 0; round < 60; ++round) {
+        const Land land(random, 31, 27, 2 + round % 9);
+        const std::int32_t most = round % 3 == 0 ? 83 : far_enough;
+        const Flood flood = land.flooded(most);
+        const Book book = by_the_book(land, most);
+        for (std::int64_t c = 0; c < land.domain.grid.size(); ++c) {
+            const auto [far, name] = book.best[at(c)];
+            ASSERT_EQ(flood.distance(c), far);
+            ASSERT_EQ(flood.source(c), name);
+            if (far == Flood::unreached) continue;
+            ++reached;
+            std::vector<std::int64_t> path;
+            for (std::int64_t b = c; b >= 0; b = book.before[at(b)]) path.push_back(b);
+            std::reverse(path.begin(), path.end());
+            ASSERT_EQ(flood.path_to(c), path);
+        }
+    }
+    EXPECT_GT(reached, 10000);
+}
+
+TEST(Flood, TheOrderOfSourcesPlaysNoPart) {
+    std::mt19937_64 random(11);
+    for (int round = 0; round < 20; ++round) {
+        Land land(random, 29, 33, 12);
+        // Two names for one cell, too.
+        if (!land.sources.empty()) land.sources.emplace_back(land.sources.front().first, 99);
+        const Flood one = land.flooded(far_enough);
+        for (int again = 0; again < 4; ++again) {
+            std::shuffle(land.sources.begin(), land.sources.end(), random);
+            const Flood other = land.flooded(far_enough);
+            for (std::int64_t c = 0; c < land.domain.grid.size(); ++c) {
+                ASSERT_EQ(one.distance(c), other.distance(c));
+                ASSERT_EQ(one.source(c), other.source(c));
+                if (one.distance(c) == Flood::unreached) continue;
+                ASSERT_EQ(one.path_to(c), other.path_to(c));
+            }
+        }
+    }
+}
+
+// As far from the window's edge as the flood goes, it does not notice the edge.
+TEST(Flood, AWindowGivesTheSameWithinReach) {
+    std::mt19937_64 random(12);
+    constexpr std::int32_t most = 60;   // six cells
+    constexpr std::int32_t margin = 6;
+    std::int64_t reached = 0;
+    for (int round = 0; round < 30; ++round) {
+        const Land land(random, 47, 41, 14);
+        const Grid& grid = land.domain.grid;
+        const Flood whole = land.flooded(most);
+        const Window core{12 + round % 5, 9, 30, 28 + round % 7};
+        const Window around = core.grown(margin, grid);
+        const Grid part = part_of(grid, around);
+        Raster<std::uint8_t> free(at(around.size()));
+        Raster<std::uint8_t> closed(free.size());
+        const auto to_whole = [&](std::int64_t c) {
+            return grid.id(part.ix(c) + around.x_begin, part.iy(c) + around.y_begin);
+        };
+        for (std::int64_t c = 0; c < part.size(); ++c) {
+            free[at(c)] = land.domain.set[at(to_whole(c))];
+            closed[at(c)] = land.closed[at(to_whole(c))];
+        }
+        Flood flood(part, free, closed, most);
+        for (const auto& [cell, name] : land.sources) {
+            const std::int32_t x = grid.ix(cell);
+            const std::int32_t y = grid.iy(cell);
+            if (!around.contains(x, y)) continue;
+            flood.add_source(part.id(x - around.x_begin, y - around.y_begin), name);
+        }
+        flood.run();
+        for (std::int64_t c = 0; c < part.size(); ++c) {
+            const std::int64_t w = to_whole(c);
+            if (!core.contains(grid.ix(w), grid.iy(w))) continue;
+            ASSERT_EQ(flood.distance(c), whole.distance(w));
+            ASSERT_EQ(flood.source(c), whole.source(w));
+            if (flood.distance(c) == Flood::unreached) continue;
+            ++reached;
+            std::vector<std::int64_t> path = flood.path_to(c);
+            for (std::int64_t& cell : path) cell = to_whole(cell);
+            ASSERT_EQ(path, whole.path_to(w));
+        }
+    }
+    EXPECT_GT(reached, 1000);
 }
 
 }  // namespace

@@ -157,12 +157,7 @@ TEST(Graph, TheLesserPartIsTheSecondLargest) {
 TEST(Graph, OverlapGraphIsTheSameForAnyNumberOfThreads) {
     std::mt19937_64 random(4);
     Pieces pieces;
-    for (int p = 0; p < 200; ++p) {
-        pieces.wall.push_back(p);
-        pieces.side.push_back(0);
-        pieces.s0_m.push_back(0);
-        pieces.s1_m.push_back(0.1 + 0.01 * p);
-    }
+    for (int p = 0; p < 200; ++p) pieces.add_wall(0.1 + 0.01 * p, 1, 0);
     CoverageTable table;
     std::vector<CoverageRow> rows;
     for (int r = 0; r < 700; ++r) {  // more than one block

@@ -20,13 +20,10 @@ struct HandMade {
     std::int32_t pieces() const { return static_cast<std::int32_t>(length_m.size()); }
     PlanInput input() const { return {candidates, rows, length_m, reach, graph}; }
     // One wall of each piece's own, without a second side.
-    std::vector<std::int32_t> first_of() const {
-        std::vector<std::int32_t> out;
-        for (std::int32_t p = 0; p < pieces(); ++p) out.insert(out.end(), {p, -1});
-        return out;
-    }
     PiecePlaces places(const std::vector<Wall>& walls) const {
-        return {walls, first_of(), pieces()};
+        Pieces each;
+        for (const double length : length_m) each.add_wall(length, 1, 0);
+        return {walls, each};
     }
     std::vector<std::int32_t> everyone() const {
         std::vector<std::int32_t> all(candidates.size());

@@ -7,6 +7,8 @@ namespace vfplan {
 namespace {
 
 using test::box_ring;
+using test::CandidateOptions;
+using test::CandidateResult;
 using test::cells_of;
 using test::ring_of;
 using test::wall;
@@ -88,10 +90,10 @@ void expect_free(const World& w, const CandidateResult& found) {
             EXPECT_NE(w.standable[at(c.cell)], 0);
             EXPECT_GT(w.field[at(c.cell)], 0);
         }
-        EXPECT_EQ(c.vf_rad, static_cast<float>(w.viewer->look(c.at).vf_rad));
+        EXPECT_EQ(c.vf_rad, static_cast<float>(w.vf_rad(c.at)));
         EXPECT_EQ(found.table.begin[i + 1] - found.table.begin[i],
-                  static_cast<std::int64_t>(w.viewer->row(c.at).size()));
-        EXPECT_FALSE(w.viewer->row(c.at).empty());
+                  static_cast<std::int64_t>(w.row(c.at).size()));
+        EXPECT_FALSE(w.row(c.at).empty());
     }
 }
 

@@ -200,8 +200,10 @@ TEST(Pieces, IncidenceByTensOfDegrees) {
     // Pieces, not walls, are measured: the far end of a wall is seen at a grazing angle.
     const HandMade h = hand_made(std::vector<double>(10, 10.0), {{0, 9}}, {});
     const std::vector<Wall> walls = {{Vec2d(-5, 10), Vec2d(95, 10)}};
+    Pieces ten;
+    ten.add_wall(100, 10, 0);
     const Metrics long_wall = measure(Threads(1), h.input(), plan_with({0}, {}, h.reach),
-                                      PiecePlaces(walls, {0, -1}, 10), 100);
+                                      PiecePlaces(walls, ten), 100);
     EXPECT_EQ(long_wall.incidence_tens, (std::vector<std::int64_t>{1, 0, 0, 0, 0, 0, 0, 0, 1}));
     EXPECT_EQ(long_wall.range_tenths, (std::vector<std::int64_t>{0, 1, 0, 0, 0, 0, 0, 0, 0, 1}));
 }

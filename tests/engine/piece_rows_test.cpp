@@ -1,6 +1,7 @@
 // The planner's compact tables hold what the coverage tables hold.
 #include "engine/piece_rows.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <map>
@@ -43,22 +44,37 @@ TEST(PieceRows, HoldTheTable) {
 }
 
 TEST(PieceRows, AreReadFromTheFileAsTheyWere) {
-    CoverageTables tables;
-    tables.table = random_table(2, 50, 20);
-    tables.candidates.resize(50);
-    tables.walls.assign(20, {Vec2d(0, 0), Vec2d(1, 0)});
-    tables.pieces = cut_into_pieces(tables.walls, 2);
-    tables.reach.assign(static_cast<std::size_t>(tables.pieces.size()), PieceStatus::covered);
-    const test::TemporaryFile file("coverage.h5");
-    write_coverage(file.path(), tables);
-    const PieceRows want = piece_rows(tables.table, true);
-    const PieceRows got = read_piece_rows(file.path(), true);
-    EXPECT_EQ(got.begin, want.begin);
-    EXPECT_EQ(got.piece, want.piece);
-    EXPECT_EQ(got.angle_rad, want.angle_rad);
-    EXPECT_TRUE(read_piece_rows(file.path(), false).angle_rad.empty());
-    const AngleSource angles = angles_of(file.path());
-    EXPECT_EQ(angles(7, 30),
+    // In two blocks: rows 0 to 29 and the rest.
+    const CoverageTable table = random_table(2, 50, 20);
+    std::vector<Wall> walls(20, {Vec2d(0, 0), Vec2d(1, 0)});
+    const test::TemporaryFolder folder("rows");
+    std::filesystem::create_directories(folder.path() / "shards");
+    std::vector<std::filesystem::path> blocks;
+    for (const auto& [from, to] : {std::pair(0, 30), std::pair(30, 50)}) {
+        CoverageBlock block;
+        block.candidates.resize(at(to - from));
+        for (std::int64_t r = from; r < to; ++r) {
+            block.table.add({table.row_begin(r), table.row_end(r)});
+        }
+        blocks.push_back(folder.path() / "shards" / fmt::format("block-{:05}.h5", blocks.size()));
+        h5::Writer file(blocks.back());
+        write_block(file, block);
+        file.close();
+    }
+    const std::filesystem::path path = folder.path() / "coverage.h5";
+    write_coverage_index(path, walls, cut_into_pieces(walls, 2), blocks, {});
+    const CoverageTables tables = read_coverage(path);
+    const CoverageEntries entries(path);
+    const PieceRows want = piece_rows(table, true);
+    const PlanTables by_angle = plan_tables_of(tables, entries, OverlapRatio::mean_ang);
+    EXPECT_EQ(by_angle.rows.begin, want.begin);
+    EXPECT_EQ(by_angle.rows.piece, want.piece);
+    EXPECT_EQ(by_angle.rows.angle_rad, want.angle_rad);
+    EXPECT_EQ(by_angle.piece_length_m, std::vector<double>(40, 1.0));
+    const PlanTables by_length = plan_tables_of(tables, entries, OverlapRatio::mean_len);
+    EXPECT_EQ(by_length.rows.piece, want.piece);
+    EXPECT_TRUE(by_length.rows.angle_rad.empty());
+    EXPECT_EQ(by_length.angles(7, 30),
               std::vector<float>(want.angle_rad.begin() + 7, want.angle_rad.begin() + 37));
 }
 
@@ -108,7 +124,7 @@ TEST(PiecePlaces, LieWherePiecesWereCut) {
         walls[w].free_side[right] = w % 5 != 0;
     }
     const Pieces pieces = cut_into_pieces(walls, 1);
-    const PiecePlaces places(walls, pieces.first_of, pieces.size());
+    const PiecePlaces places(walls, pieces);
     std::vector<std::int32_t> some;
     for (std::int32_t p = 0; p < pieces.size(); ++p) {
         if (p < 50 || random() % 3 == 0) some.push_back(p);
@@ -116,8 +132,9 @@ TEST(PiecePlaces, LieWherePiecesWereCut) {
     std::size_t called = 0;
     places.each(some, [&](std::int32_t p, const PiecePlaces::Place& place) {
         EXPECT_EQ(p, some[called++]);
-        const Wall& wall = walls[at(pieces.wall[at(p)])];
-        EXPECT_EQ(place.middle, wall.at((pieces.s0_m[at(p)] + pieces.s1_m[at(p)]) / 2));
+        const Pieces::Place piece = pieces.place(p);
+        const Wall& wall = walls[at(piece.wall)];
+        EXPECT_EQ(place.middle, wall.at((piece.s0_m + piece.s1_m) / 2));
         EXPECT_EQ(place.along, (wall.b - wall.a).normalized());
     });
     EXPECT_EQ(called, some.size());

@@ -7,9 +7,11 @@ namespace vfplan {
 namespace {
 
 using test::box_ring;
+using test::CandidateOptions;
+using test::CandidateResult;
 using test::cells_of;
+using test::Lines;
 using test::ring_of;
-using test::row_has;
 using test::World;
 using enum CandidateKind;
 
@@ -20,7 +22,7 @@ std::vector<std::uint8_t> coverable(const World& w) {
     std::vector<std::uint8_t> out(at(w.pieces.size()), 0);
     for (std::int64_t c = 0; c < w.grid.size(); ++c) {
         if (w.standable[at(c)] == 0) continue;
-        for (const Seen& s : w.viewer->row(w.grid.centre(c))) out[at(s.piece)] = 1;
+        for (const Seen& s : w.row(c)) out[at(s.piece)] = 1;
     }
     return out;
 }
@@ -33,7 +35,8 @@ void expect_right(const World& w, const CandidateResult& r) {
     for (std::size_t p = 0; p < want.size(); ++p) {
         EXPECT_EQ(r.reach[p] == PieceStatus::covered, index.begin[p + 1] > index.begin[p]);
         EXPECT_EQ(r.reach[p], want[p] != 0 ? PieceStatus::covered : PieceStatus::no_viewpoint)
-            << "piece " << p << " of wall " << w.pieces.wall[p];
+            << "piece " << p << " of wall "
+            << w.pieces.place(static_cast<std::int64_t>(p)).wall;
     }
     for (std::size_t i = 0; i < r.candidates.size(); ++i) {
         if (r.candidates[i].kind != rescue) continue;
@@ -107,7 +110,7 @@ TEST(Rescue, ASlitThatNoCellSeesHasNoViewpoint) {
     const auto lost = std::count(r.reach.begin(), r.reach.end(), PieceStatus::no_viewpoint);
     EXPECT_GT(lost, w.pieces.size() / 2);  // outer sides, and behind the bend
     for (std::size_t p = 0; p < r.reach.size(); ++p) {
-        const Wall& wall = w.walls[at(w.pieces.wall[p])];
+        const Wall& wall = w.walls[at(w.pieces.place(static_cast<std::int64_t>(p)).wall)];
         if (std::min(wall.a.y(), wall.b.y()) > 7.9 && wall.a.x() > 11) {
             EXPECT_EQ(r.reach[p], PieceStatus::no_viewpoint);
         }
@@ -163,15 +166,15 @@ TEST(Rescue, CellsInsideTheDomainComeFirst) {
     World::Setting s;
     s.scanner.range_max_m = 14;
     TwoRooms w(s);
-    std::fill(w.domain.begin(), w.domain.end(), 0);
+    std::fill(w.closed.begin(), w.closed.end(), 0xff);  // what no domain reaches
     for (const auto& [x, y] : {std::pair(13.5, 8.5), std::pair(14.5, 8.5)}) {
-        w.domain[at(w.cell(x, y))] = 1;
+        w.closed[at(w.cell(x, y))] = 0;
         w.field[at(w.cell(x, y))] = 0.5F + static_cast<float>(x) / 100;
     }
     const CandidateResult r = w.found();
     EXPECT_EQ(cells_of(r.candidates, rescue), std::vector{w.cell(14.5, 8.5)});  // greater VF
     // Without any, the cell with the greatest VF.
-    std::fill(w.domain.begin(), w.domain.end(), 0);
+    std::fill(w.closed.begin(), w.closed.end(), 0xff);
     w.field[at(w.cell(19.5, 2.5))] = 6.5;
     EXPECT_EQ(cells_of(w.found().candidates, rescue), std::vector{w.cell(19.5, 2.5)});
 }
@@ -205,7 +208,6 @@ TEST(Rescue, NoStationStandsWhereTheFieldIsNaN) {
         if (w.grid.centre(c).x() < 11 || c == w.cell(20.5, 1.5)) continue;
         w.field[at(c)] = std::nanf("");
         w.standable[at(c)] = 0;
-        w.domain[at(c)] = 0;
     }
     const CandidateResult r = w.found();
     expect_right(w, r);
@@ -238,7 +240,7 @@ TEST(Rescue, SameForAnyNumberOfThreads) {
     World::Setting s;
     s.scanner.range_max_m = 6;
     const TwoRooms w(s);
-    const RidgeGraph g = w.drawn({{{3, 5}, {7, 5}}});
+    const Lines g = w.drawn({{{3, 5}, {7, 5}}});
     const CandidateResult one = w.candidates(g, {}, 1);
     const CandidateResult two = w.candidates(g, {}, 2);
     EXPECT_GT(cells_of(one.candidates, rescue).size(), 1U);

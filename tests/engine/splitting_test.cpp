@@ -1,16 +1,21 @@
 // Ridge splitting: middles until neighbours overlap enough (SPEC section 3).
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
+#include "engine/tile_shards.h"
 #include "tests/engine/ground.h"
 
 namespace vfplan {
 namespace {
 
 using test::box_ring;
+using test::CandidateOptions;
+using test::CandidateResult;
 using test::cells_of;
 using test::hall;
+using test::Lines;
 using test::overlap_of;
 using test::World;
 using enum CandidateKind;
@@ -18,7 +23,7 @@ using enum CandidateKind;
 // What splitting a straight path must insert: middles until neighbours overlap enough.
 void insert_middles(const World& w, const CandidateOptions& o, const CellPath& path,
                     std::size_t from, std::size_t to, std::set<std::int64_t>& out) {
-    const auto row = [&](std::size_t i) { return w.viewer->row(w.grid.centre(path[i])); };
+    const auto row = [&](std::size_t i) { return w.row(w.grid.centre(path[i])); };
     if (overlap(o.ratio, w.pieces, row(from), row(to)) >= o.threshold || to < from + 2) return;
     const std::size_t half = (from + to) / 2;
     out.insert(path[half]);
@@ -30,7 +35,7 @@ TEST(Splitting, MiddlesUntilNeighboursOverlapEnough) {
     World::Setting s;
     s.scanner.range_max_m = 9;
     const World w = hall(90, 6, s);
-    const RidgeGraph g = w.drawn({{{5, 3}, {85, 3}}});
+    const Lines g = w.drawn({{{5, 3}, {85, 3}}});
     ASSERT_EQ(g.ridges.size(), 1U);
     const CellPath& cells = g.ridges[0].cells;
     std::size_t last = 0;
@@ -50,53 +55,80 @@ TEST(Splitting, MiddlesUntilNeighboursOverlapEnough) {
     EXPECT_GT(last, 20U);
 }
 
+// A line along y between two joints: arms of a few cells across it at its ends.
+Lines between_joints(const World& w, double x0, double x1, double y) {
+    return w.drawn({{{x0, y}, {x1, y}},
+                    {{x0, y - 2}, {x0, y + 2}},
+                    {{x1, y - 2}, {x1, y + 2}}});
+}
+
+// The overlap of the two joints of such a line.
+double overlap_at_joints(const World& w, const Lines& lines, OverlapRatio ratio) {
+    EXPECT_EQ(lines.joints.size(), 2U);
+    return overlap(ratio, w.pieces, w.row(lines.joints[0]), w.row(lines.joints[1]));
+}
+
 TEST(Splitting, NoSplitWhereOverlapIsEnough) {
     const World w = hall();
-    const Threads threads(1);
-    CandidatePool pool(*w.viewer, threads, w.ground());
-    const RidgeGraph g = w.drawn({{{2, 5}, {18, 5}}});
-    const CellPath& path = g.ridges[0].cells;
-    pool.add({path.front(), path.back()}, joint);
-    EXPECT_EQ(split_paths(pool, {path}, overlap_of(0.9)), 0);  // both see all of the hall
-    EXPECT_EQ(pool.candidates().size(), 2U);
+    const CandidateResult whole = w.candidates(between_joints(w, 4, 16, 5), overlap_of(0.9));
+    EXPECT_EQ(whole.candidates.size(), 2U);  // both see all of the hall
+    EXPECT_EQ(whole.report.ridges_short_of_overlap, 0);
     // The threshold itself is enough.
     World::Setting s;
     s.scanner.range_max_m = 9;
     const World long_hall = hall(90, 6, s);
-    const CellPath twelve = long_hall.drawn({{{20, 3}, {32, 3}}}).ridges[0].cells;
-    const double o = overlap(OverlapRatio::mean_len, long_hall.pieces,
-                             long_hall.viewer->row(long_hall.grid.centre(twelve.front())),
-                             long_hall.viewer->row(long_hall.grid.centre(twelve.back())));
-    ASSERT_GT(o, 0);
-    for (const bool above : {false, true}) {
-        CandidatePool two(*long_hall.viewer, threads, long_hall.ground());
-        two.add({twelve.front(), twelve.back()}, joint);
-        split_paths(two, {twelve}, overlap_of(above ? std::nextafter(o, 1) : o));
-        EXPECT_EQ(two.candidates().size() > 2, above);
-    }
+    const Lines twelve = between_joints(long_hall, 20.5, 32.5, 3);
+    const double o = overlap_at_joints(long_hall, twelve, OverlapRatio::mean_len);
+    ASSERT_GT(o, 0.05);
+    const auto on_the_line = [&](double threshold) {
+        const CandidateResult r = long_hall.candidates(twelve, overlap_of(threshold));
+        std::int64_t count = 0;
+        for (const std::int64_t c : cells_of(r.candidates, split)) {
+            const Vec2d p = long_hall.grid.centre(c);
+            count += p.x() > 21 && p.x() < 32 && std::abs(p.y() - 3) < 1 ? 1 : 0;
+        }
+        return count;
+    };
+    EXPECT_EQ(on_the_line(o), 0);
+    EXPECT_GT(on_the_line(std::nextafter(o, 1)), 0);
 }
 
 TEST(Splitting, TheMiddleIsThatOfTheArc) {
     World::Setting s;
     s.scanner.range_max_m = 12;
     const World w = hall(40, 30, s);
-    const CellPath path = w.drawn({{{5, 5}, {15, 5}, {29, 19}}}).ridges[0].cells;
-    ASSERT_EQ(path.size(), 25U);
-    const Threads threads(1);
-    CandidatePool pool(*w.viewer, threads, w.ground());
-    pool.add({path.front(), path.back()}, joint);
-    split_paths(pool, {path}, overlap_of(0.3));
-    // 10 + 14 sqrt(2) = 29.8; half lies 3.46 diagonal steps behind the bend.
-    ASSERT_GT(pool.candidates().size(), 2U);
-    EXPECT_EQ(pool.candidates()[2].cell, path[13]);
-    EXPECT_EQ(pool.candidates()[2].kind, split);
+    // Two joints; between them a straight part and a diagonal one.
+    const Lines lines = w.drawn({{{5, 5}, {15, 5}, {29, 19}},
+                                 {{5, 2}, {5, 8}},
+                                 {{27, 21}, {31, 17}}});
+    ASSERT_EQ(lines.joints.size(), 2U);
+    std::vector<std::int64_t> path;
+    for (const Ridge& ridge : lines.ridges) {
+        if (ridge.joint[0] < 0 || ridge.joint[1] < 0) continue;
+        path = ridge.cells;
+        path.insert(path.begin(), lines.joints[static_cast<std::size_t>(ridge.joint[0])]);
+        path.push_back(lines.joints[static_cast<std::size_t>(ridge.joint[1])]);
+    }
+    ASSERT_GT(path.size(), 20U);
+    const std::size_t by_arc = arc_middle(w.grid, path, 0, path.size() - 1);
+    const std::size_t by_count = (path.size() - 1) / 2;
+    ASSERT_NE(by_arc, by_count);
+    const double o = overlap_at_joints(w, lines, OverlapRatio::mean_len);
+    // A threshold so small that one middle is enough, if any is.
+    const CandidateResult r = w.candidates(lines, overlap_of(std::max(o * 1.0001, 1e-9)));
+    const auto inserted = cells_of(r.candidates, split);
+    const auto has = [&](std::size_t i) {
+        return std::binary_search(inserted.begin(), inserted.end(), path[i]);
+    };
+    EXPECT_TRUE(has(by_arc));
+    EXPECT_FALSE(has(by_count));
 }
 
 TEST(Splitting, RingsAreSplitAllTheWayRound) {
     World::Setting s;
     s.scanner.range_max_m = 12;
     const World w(s, {box_ring(0, 0, 40, 40), box_ring(12, 12, 28, 28)});
-    const RidgeGraph g = w.drawn(
+    const Lines g = w.drawn(
         {{{10, 6}, {30, 6}, {34, 10}, {34, 30}, {30, 34}, {10, 34}, {6, 30}, {6, 10}, {10, 6}}});
     ASSERT_TRUE(g.ridges[0].ring);
     const CandidateResult r = w.candidates(g, overlap_of(0.5));
@@ -105,7 +137,7 @@ TEST(Splitting, RingsAreSplitAllTheWayRound) {
     for (const Candidate& c : r.candidates) chosen.insert(c.cell);
     std::vector<CoverageRow> rows;
     for (const std::int64_t c : g.ridges[0].cells) {
-        if (chosen.contains(c)) rows.push_back(w.viewer->row(w.grid.centre(c)));
+        if (chosen.contains(c)) rows.push_back(w.row(w.grid.centre(c)));
     }
     ASSERT_GT(rows.size(), 8U);
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -114,43 +146,38 @@ TEST(Splitting, RingsAreSplitAllTheWayRound) {
     }
 }
 
-// Sees no wall at all.
-class Blind final : public ViewKernel {
-public:
-    void first_hits(const Vec2d&, View& out) const override { out.clear(); }
-    FieldCounts field(const Scanner&, const Grid&, const Window&, const Raster<std::uint8_t>&,
-                      Raster<float>&) const override {
-        return {};
-    }
-};
-
-// What splitting a row of `cells` does when nothing ever overlaps.
+// What splitting a path of `cells`, joints included (one more on either side belongs to the joint's
+// cluster), does when nothing ever overlaps: nothing in
+// this lane has to be scanned. Returns ridges that fall short, and points on the path.
 std::pair<std::int64_t, std::size_t> split_blindly(std::int32_t cells) {
-    const std::vector<Wall> walls = {test::wall({0, 5}, {1, 5})};
-    const Pieces pieces = cut_into_pieces(walls, 1);
-    const Blind blind;
-    const Viewer viewer(blind, walls, pieces, {}, 0.5);
-    const Grid grid{{0, 0}, 1, cells, 1};
-    const auto n = static_cast<std::size_t>(cells);
-    const Raster<float> field(n, 1);
-    const Raster<std::uint8_t> ones(n, 1);
-    const Raster<std::uint8_t> zeros(n, 0);
-    const Threads threads(1);
-    const Ground ground{grid, field, ones, zeros, ones};
-    CandidatePool pool(viewer, threads, ground);
-    CellPath path(n);
-    for (std::size_t i = 0; i < n; ++i) path[i] = static_cast<std::int64_t>(i);
-    pool.add({path.front(), path.back()}, joint);
-    const std::int64_t flagged = split_paths(pool, {path, {path.front()}}, overlap_of(0.3));
-    return {flagged, pool.candidates().size()};
+    World::Setting s;
+    s.scanned = false;
+    s.scanner.range_max_m = 20;
+    s.tile_cells = 1024;
+    const World w = hall(cells + 10, 5, s);
+    const Lines lines = between_joints(w, 4.5, 4.5 + cells + 1, 2.5);
+    EXPECT_EQ(lines.joints.size(), 2U);
+    const auto job = w.job(lines, overlap_of(0.3));
+    make_seeds(job->work);
+    make_ridge_points(job->work);
+    CandidateReport report;
+    add_candidate_counts(job->work, report);
+    std::set<std::int64_t> on_path;
+    for (const char* phase : {"seeds", "ridges"}) {
+        for (std::int64_t t = 0; t < w.layout.tiles(); ++t) {
+            for (const TileCandidate& c : read_tile_candidates(job->work.passing(phase, t))) {
+                if (w.grid.iy(c.cell) == w.grid.iy(lines.joints[0])) on_path.insert(c.cell);
+            }
+        }
+    }
+    return {report.ridges_short_of_overlap, on_path.size()};
 }
 
 TEST(Splitting, StopsAtTwoCellsOrDepthSixteenAndIsFlagged) {
-    EXPECT_EQ(split_blindly(2), (std::pair<std::int64_t, std::size_t>(1, 2)));
     EXPECT_EQ(split_blindly(3), (std::pair<std::int64_t, std::size_t>(1, 3)));
     EXPECT_EQ(split_blindly(100), (std::pair<std::int64_t, std::size_t>(1, 100)));
     // Sixteen halvings make 65536 parts.
-    EXPECT_EQ(split_blindly(400000), (std::pair<std::int64_t, std::size_t>(1, 65537)));
+    EXPECT_EQ(split_blindly(150000), (std::pair<std::int64_t, std::size_t>(1, 65537)));
 }
 
 TEST(Splitting, OnlyTheRidgeThatFallsShortIsFlagged) {

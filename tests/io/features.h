@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -94,5 +95,34 @@ public:
 private:
     std::filesystem::path path_;
 };
+
+// A folder of the same kind, with all that is in it.
+class TemporaryFolder {
+public:
+    explicit TemporaryFolder(const std::string& name)
+        : path_(std::filesystem::temp_directory_path() /
+                (std::to_string(::getpid()) + "_" + name)) {
+        std::filesystem::remove_all(path_);
+        std::filesystem::create_directories(path_);
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+// Damages a file. Readers check a file again when its time or size is another: as days later.
+inline void overwrite(const std::filesystem::path& file, const std::string& bytes) {
+    static int writes = 0;
+    std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
+    std::filesystem::last_write_time(
+        file, std::filesystem::last_write_time(file) + std::chrono::seconds(++writes));
+}
 
 }  // namespace vfplan::test

@@ -1,10 +1,13 @@
 #include "io/h5.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <random>
 
 #include "io/files.h"
+#include "io/sha256.h"
 #include "kernels/error.h"
 #include "tests/io/features.h"
 
@@ -26,7 +29,6 @@ void write_sample(const std::filesystem::path& path) {
     file.write("none", std::vector<float>{});
     file.write("bytes", std::vector<std::uint8_t>{0, 255});
     file.write("long", std::vector<std::int64_t>{std::int64_t{1} << 60, -7});
-    file.write_strings("names", {"one", "three", ""});
     file.attribute("/", "title", "a title");
     file.attribute("g", "number", 2.5);
     file.attribute("g", "count", std::int64_t{12});
@@ -46,7 +48,6 @@ TEST(H5, ReadsBackWhatWasWritten) {
     EXPECT_EQ(in.read<std::uint8_t>("bytes"), (std::vector<std::uint8_t>{0, 255}));
     EXPECT_EQ(in.read<std::int64_t>("long"),
               (std::vector<std::int64_t>{std::int64_t{1} << 60, -7}));
-    EXPECT_EQ(in.dims("names"), (h5::Dims{3}));
     EXPECT_EQ(in.text("/", "title"), "a title");
     EXPECT_EQ(in.text("small", "empty"), "");
     EXPECT_EQ(in.number("g", "number"), 2.5);
@@ -173,8 +174,259 @@ TEST(H5, DamageIsNoticed) {
     for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 16; ++i) {
         bytes[i] = static_cast<char>(~bytes[i]);
     }
-    write_text(file.path(), bytes);
+    test::overwrite(file.path(), bytes);
     EXPECT_THROW(h5::Reader(file.path()).read<double>("noise"), IoError);
+}
+
+// Values that compress neither well nor not at all.
+template <class T>
+std::vector<T> values(std::size_t count, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::vector<T> out(count);
+    for (T& v : out) v = static_cast<T>(static_cast<std::int64_t>(random() % 61) - 30);
+    return out;
+}
+
+// Chunks are packed here and unpacked, checksum and all, by the library.
+template <class T>
+void expect_packed_is_readable() {
+    const test::TemporaryFile file("packed.h5");
+    constexpr std::uint64_t chunk = 1000;
+    std::vector<std::size_t> sizes = {0, 1, 2, 3, 255, 256, 257, 719, 721, 999, 1000, 1001, 1439,
+                                      2000, 3001};
+    {
+        h5::Writer out(file.path());
+        for (const std::size_t n : sizes) {
+            out.write(fmt::format("v{}", n), values<T>(n, n), {}, chunk);
+            out.begin<T>(fmt::format("b{}", n), n, chunk);
+            out.append(fmt::format("b{}", n), values<T>(n, n));
+        }
+        out.write("plane", values<T>(1025 * 513, 7), {1025, 513});
+        out.write("strip", values<T>(3 * 700, 8), {3, 700});
+        out.close();
+    }
+    const h5::Reader in(file.path());
+    for (const std::size_t n : sizes) {
+        EXPECT_EQ(in.read<T>(fmt::format("v{}", n)), values<T>(n, n)) << n;
+        EXPECT_EQ(in.read<T>(fmt::format("b{}", n)), values<T>(n, n)) << n;
+    }
+    EXPECT_EQ(in.read<T>("plane"), values<T>(1025 * 513, 7));
+    EXPECT_EQ(in.read<T>("strip"), values<T>(3 * 700, 8));
+    const auto part = in.read_window<T>("plane", {500, 400}, {30, 113});
+    const auto whole = values<T>(1025 * 513, 7);
+    for (std::size_t y = 0; y < 30; ++y) {
+        for (std::size_t x = 0; x < 113; ++x) {
+            ASSERT_EQ(part[y * 113 + x], whole[(500 + y) * 513 + 400 + x]);
+        }
+    }
+    const auto some = in.read<T>("v3001", 990, 1500);
+    const auto all = values<T>(3001, 3001);
+    EXPECT_TRUE(std::equal(some.begin(), some.end(), all.begin() + 990));
+    EXPECT_TRUE(in.read<T>("v3001", 3001, 0).empty());
+}
+
+TEST(H5, ChunksOfOurOwnPackingAreReadable) {
+    expect_packed_is_readable<float>();
+    expect_packed_is_readable<double>();
+    expect_packed_is_readable<std::int8_t>();
+    expect_packed_is_readable<std::uint8_t>();
+    expect_packed_is_readable<std::int32_t>();
+    expect_packed_is_readable<std::int64_t>();
+}
+
+// The library checks each chunk's sum: of all zeros, of all ones, of odd length.
+TEST(H5, ChecksumsOfExtremeChunksAreAsTheLibraryTakesThem) {
+    const test::TemporaryFile file("extreme.h5");
+    h5::Writer out(file.path());
+    for (const int v : {0, 1, 127, 255}) {
+        for (const std::uint64_t n : {257U, 720U, 721U, 100003U}) {
+            out.write(fmt::format("v{}_{}", v, n),
+                      std::vector<std::uint8_t>(n, static_cast<std::uint8_t>(v)), {}, n);
+        }
+    }
+    out.close();
+    const h5::Reader in(file.path());
+    for (const int v : {0, 1, 127, 255}) {
+        for (const std::uint64_t n : {257U, 720U, 721U, 100003U}) {
+            EXPECT_EQ(in.read<std::uint8_t>(fmt::format("v{}_{}", v, n)),
+                      std::vector<std::uint8_t>(n, static_cast<std::uint8_t>(v)));
+        }
+    }
+}
+
+TEST(H5, AColumnThatComesBitByBitIsTheColumnInOnePiece) {
+    const test::TemporaryFile whole("whole.h5");
+    const test::TemporaryFile bits("bits.h5");
+    const std::vector<std::int32_t> data = values<std::int32_t>(5000, 3);
+    {
+        h5::Writer out(whole.path());
+        out.write("x", data, {}, 700);
+        out.close();
+    }
+    for (const std::size_t step : {1U, 7U, 699U, 700U, 701U, 1400U, 4999U}) {
+        h5::Writer out(bits.path());
+        out.begin<std::int32_t>("x", data.size(), 700);
+        for (std::size_t i = 0; i < data.size(); i += step) {
+            const auto to = std::min(data.size(), i + step);
+            out.append("x", std::vector<std::int32_t>(
+                                data.begin() + static_cast<std::ptrdiff_t>(i),
+                                data.begin() + static_cast<std::ptrdiff_t>(to)));
+        }
+        out.close();
+        EXPECT_EQ(read_text(bits.path()), read_text(whole.path())) << step;
+    }
+}
+
+TEST(H5, AColumnMustComeWholeAndNoMore) {
+    const test::TemporaryFile file("column.h5");
+    {
+        h5::Writer out(file.path());
+        out.begin<double>("x", 10);
+        out.append("x", ramp(9));
+        EXPECT_THROW(out.close(), IoError);
+    }
+    EXPECT_FALSE(std::filesystem::exists(file.path()));
+    h5::Writer out(file.path());
+    out.begin<double>("x", 10);
+    EXPECT_THROW(out.append("x", ramp(11)), IoError);
+    EXPECT_THROW(out.append("y", ramp(1)), IoError);
+}
+
+TEST(H5, VirtualDatasetsShowTheirParts) {
+    const test::TemporaryFolder folder("virtual");
+    std::filesystem::create_directories(folder.path() / "parts");
+    for (const std::int32_t k : {0, 1}) {
+        h5::Writer out(folder.path() / "parts" / fmt::format("p{}.h5", k));
+        out.write("plane", values<float>(600, static_cast<std::uint64_t>(k)), {20, 30});
+        out.group("g");
+        out.write("g/run", values<std::int32_t>(300, static_cast<std::uint64_t>(k)));
+        out.close();
+    }
+    const std::filesystem::path index = folder.path() / "index.h5";
+    {
+        h5::Writer out(index);
+        // Two planes on the diagonal; the rest is nobody's.
+        out.write_virtual<float>("plane", {40, 60},
+                                 {{"parts/p0.h5", "plane", {0, 0}, {20, 30}},
+                                  {"parts/p1.h5", "plane", {20, 30}, {20, 30}}},
+                                 -99.0F);
+        out.write_virtual<std::int32_t>("run", {600},
+                                        {{"parts/p1.h5", "g/run", {0}, {300}},
+                                         {"parts/p0.h5", "g/run", {300}, {300}}},
+                                        -1);
+        out.write_virtual<std::int32_t>("none", {0}, {}, -1);
+        out.close();
+    }
+    const h5::Reader in(index);
+    const auto plane = in.read<float>("plane");
+    const auto first = values<float>(600, 0);
+    const auto second = values<float>(600, 1);
+    for (std::size_t y = 0; y < 40; ++y) {
+        for (std::size_t x = 0; x < 60; ++x) {
+            const float want = y < 20 && x < 30     ? first[y * 30 + x]
+                               : y >= 20 && x >= 30 ? second[(y - 20) * 30 + x - 30]
+                                                    : -99.0F;
+            ASSERT_EQ(plane[y * 60 + x], want) << x << ", " << y;
+        }
+    }
+    const auto across = in.read_window<float>("plane", {15, 25}, {10, 10});
+    EXPECT_EQ(across[0], first[15 * 30 + 25]);
+    EXPECT_EQ(across[99], second[4 * 30 + 4]);
+    const auto run = in.read<std::int32_t>("run", 290, 20);
+    EXPECT_EQ(run.front(), (values<std::int32_t>(300, 1)[290]));
+    EXPECT_EQ(run.back(), (values<std::int32_t>(300, 0)[9]));
+    EXPECT_TRUE(in.read<std::int32_t>("none").empty());
+}
+
+// What the message of the IoError of f() is; empty when there is none.
+template <class F>
+std::string message_of_io_error(F&& f) {
+    try {
+        f();
+    } catch (const IoError& e) {
+        return e.what();
+    }
+    return "";
+}
+
+TEST(H5, AnyFlippedByteIsNoticedByName) {
+    const test::TemporaryFile file("flipped.h5");
+    write_sample(file.path());
+    const std::string bytes = read_text(file.path());
+    std::mt19937_64 random(1);
+    std::vector<std::size_t> places = {0, 1, 8, 100, bytes.size() - 1, bytes.size() - 2,
+                                       bytes.size() - 79, bytes.size() - 80, bytes.size() - 81};
+    for (int i = 0; i < 200; ++i) places.push_back(random() % bytes.size());
+    for (const std::size_t place : places) {
+        std::string damaged = bytes;
+        damaged[place] = static_cast<char>(damaged[place] ^ (1 << random() % 8));
+        test::overwrite(file.path(), damaged);
+        const std::string message =
+            message_of_io_error([&] { const h5::Reader in(file.path()); });
+        EXPECT_NE(message.find("flipped.h5"), std::string::npos)
+            << "byte " << place << " of " << bytes.size();
+    }
+    test::overwrite(file.path(), bytes);
+    EXPECT_EQ(h5::Reader(file.path()).read<std::int32_t>("small").size(), 3U);
+}
+
+TEST(H5, ATruncatedOrLengthenedFileIsNoticedByName) {
+    const test::TemporaryFile file("cut.h5");
+    write_sample(file.path());
+    const std::string bytes = read_text(file.path());
+    std::vector<std::string> all;
+    for (const std::size_t left : {std::size_t{0}, std::size_t{1}, std::size_t{79}, std::size_t{80},
+                                   std::size_t{81}, bytes.size() / 2, bytes.size() - 81,
+                                   bytes.size() - 80, bytes.size() - 1}) {
+        all.push_back(bytes.substr(0, left));
+    }
+    all.push_back(bytes + "x");
+    all.push_back(bytes + bytes.substr(bytes.size() - 80));
+    for (const std::string& damaged : all) {
+        test::overwrite(file.path(), damaged);
+        EXPECT_NE(message_of_io_error([&] { const h5::Reader in(file.path()); }).find("cut.h5"),
+                  std::string::npos)
+            << damaged.size();
+        EXPECT_NE(message_of_io_error([&] { h5::checked_hash(file.path()); }).find("cut.h5"),
+                  std::string::npos);
+    }
+}
+
+TEST(H5, TheLastLineIsTheHashOfWhatIsBeforeIt) {
+    const test::TemporaryFile file("hash.h5");
+    write_sample(file.path());
+    const std::string bytes = read_text(file.path());
+    const std::string line = bytes.substr(bytes.size() - 80);
+    EXPECT_EQ(line.substr(0, 15), "\nvfplan sha256 ");
+    EXPECT_EQ(line.back(), '\n');
+    EXPECT_EQ(line.substr(15, 64), h5::checked_hash(file.path()));
+    Sha256 hash;
+    hash.add(bytes.data(), bytes.size() - 80);
+    EXPECT_EQ(hash.hex(), line.substr(15, 64));
+}
+
+TEST(Files, ATextFileThatComesBitByBit) {
+    const test::TemporaryFile file("bits.csv");
+    std::filesystem::path aside = file.path();
+    aside += ".tmp";
+    {
+        TextFile out(file.path());
+        out.add("a,b\n");
+        for (int i = 0; i < 10000; ++i) out.add(fmt::format("{},1\n", i));
+        EXPECT_FALSE(std::filesystem::exists(file.path()));
+        out.close();
+    }
+    EXPECT_FALSE(std::filesystem::exists(aside));
+    const std::string text = read_text(file.path());
+    EXPECT_EQ(text.substr(0, 8), "a,b\n0,1\n");
+    EXPECT_EQ(text.substr(text.size() - 7), "9999,1\n");
+    {
+        TextFile out(file.path());  // given up: the old one stays
+        out.add("new");
+    }
+    EXPECT_EQ(read_text(file.path()), text);
+    EXPECT_FALSE(std::filesystem::exists(aside));
+    EXPECT_THROW(TextFile("no/such/file"), IoError);
 }
 
 TEST(Files, TextIsWrittenWholeAndReadBack) {

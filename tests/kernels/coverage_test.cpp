@@ -29,13 +29,12 @@ TEST(Pieces, SidesAreCutIntoTheFewestEqualPieces) {
         const Pieces p = cut_into_pieces({wall({1, 1}, {1, 1 + length})}, 5);
         ASSERT_EQ(p.size(), 2 * count) << length;  // two sides
         for (int i = 0; i < count; ++i) {
-            const auto k = static_cast<std::size_t>(i);
             EXPECT_NEAR(p.length_m(i), length / count, 1e-12);
-            EXPECT_NEAR(p.s0_m[k], i * length / count, 1e-12);
-            EXPECT_EQ(p.side[k], left);
-            EXPECT_EQ(p.side[k + static_cast<std::size_t>(count)], right);
+            EXPECT_NEAR(p.place(i).s0_m, i * length / count, 1e-12);
+            EXPECT_EQ(p.place(i).side, left);
+            EXPECT_EQ(p.place(i + count).side, right);
         }
-        EXPECT_NEAR(p.s1_m[static_cast<std::size_t>(count) - 1], length, 1e-12);
+        EXPECT_NEAR(p.place(count - 1).s1_m, length, 1e-12);
     }
 }
 
@@ -51,10 +50,60 @@ TEST(Pieces, OnlyFreeSidesOfWallsToScan) {
     walls[1].free_side[right] = false;
     walls[2].scanned = false;
     const Pieces p = cut_into_pieces(walls, 5);
-    EXPECT_EQ(p.wall, (std::vector<std::int32_t>{0, 0, 1, 1, 3, 3, 3, 3}));
-    EXPECT_EQ(p.side, (std::vector<std::uint8_t>{1, 1, 0, 0, 0, 0, 1, 1}));
-    EXPECT_EQ(p.first_of, (std::vector<std::int32_t>{-1, 0, 2, -1, -1, -1, 4, 6}));
-    EXPECT_EQ(p.count_of, (std::vector<std::int32_t>{0, 2, 2, 0, 0, 0, 2, 2}));
+    std::vector<std::int32_t> wall_of;
+    std::vector<std::int32_t> side_of;
+    for (std::int64_t i = 0; i < p.size(); ++i) {
+        wall_of.push_back(p.place(i).wall);
+        side_of.push_back(p.place(i).side);
+    }
+    EXPECT_EQ(wall_of, (std::vector<std::int32_t>{0, 0, 1, 1, 3, 3, 3, 3}));
+    EXPECT_EQ(side_of, (std::vector<std::int32_t>{1, 1, 0, 0, 0, 0, 1, 1}));
+    std::vector<std::int32_t> first;
+    std::vector<std::int32_t> count;
+    for (std::int32_t w = 0; w < 4; ++w) {
+        for (const Side side : {left, right}) {
+            count.push_back(p.count(w, side));
+            first.push_back(p.count(w, side) > 0 ? p.first(w, side) : -1);
+        }
+    }
+    EXPECT_EQ(first, (std::vector<std::int32_t>{-1, 0, 2, -1, -1, -1, 4, 6}));
+    EXPECT_EQ(count, (std::vector<std::int32_t>{0, 2, 2, 0, 0, 0, 2, 2}));
+    EXPECT_EQ(p.walls(), 4);
+    EXPECT_EQ(p.wall_length_m(2), 10);
+}
+
+// Each piece is where counting up from the first wall puts it, and none is missed.
+TEST(Pieces, PlacesAreThoseOfCountingUp) {
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> coordinate(0, 60);
+    for (int round = 0; round < 20; ++round) {
+        std::vector<Wall> walls;
+        for (int w = 0; w < 40; ++w) {
+            walls.push_back(wall({coordinate(random), coordinate(random)},
+                                 {coordinate(random), coordinate(random)}));
+            walls.back().free_side[left] = random() % 4 != 0;
+            walls.back().free_side[right] = random() % 4 != 0;
+            walls.back().scanned = random() % 5 != 0;
+        }
+        const Pieces p = cut_into_pieces(walls, 1.7);
+        std::int64_t next = 0;
+        for (std::int32_t w = 0; w < 40; ++w) {
+            const Wall& at = walls[static_cast<std::size_t>(w)];
+            const std::int32_t n = at.scanned ? pieces_along(at.length_m(), 1.7) : 0;
+            for (const Side side : {left, right}) {
+                ASSERT_EQ(p.count(w, side), at.free_side[side] ? n : 0);
+                for (std::int32_t k = 0; k < p.count(w, side); ++k, ++next) {
+                    const Pieces::Place place = p.place(next);
+                    ASSERT_EQ(place.wall, w);
+                    ASSERT_EQ(place.side, side);
+                    EXPECT_EQ(place.s0_m, piece_begin_m(at.length_m(), k, n));
+                    EXPECT_EQ(place.s1_m, piece_begin_m(at.length_m(), k + 1, n));
+                    EXPECT_EQ(p.length_m(next), place.s1_m - place.s0_m);
+                }
+            }
+        }
+        EXPECT_EQ(p.size(), next);
+    }
 }
 
 TEST(Coverage, OnlyTheSideThatFacesTheEye) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <random>
 
@@ -129,7 +130,7 @@ TEST(ClosedLinks, EqualBruteForceOnRandomWalls) {
         }
         walls.push_back(wall({3, 4}, {3, 9}));
         walls.push_back(wall({5, 6}, {12, 6}));
-        const auto closed = closed_links(g, free, walls);
+        const auto closed = closed_links(g, free, walls, {0, 0, g.nx, g.ny});
         for (std::int64_t c = 0; c < g.size(); ++c) {
             for (unsigned k = 0; k < 8; ++k) {
                 const std::int32_t x = g.ix(c) + around_dx[k];
@@ -153,7 +154,7 @@ TEST(ClosedLinks, EqualBruteForceOnRandomWalls) {
 TEST(ClosedLinks, ThinWallPartsItsTwoSides) {
     const Grid g = make_grid({{0, 0}, {8, 6}}, 1, 0.001);
     const Raster<std::uint8_t> free(static_cast<std::size_t>(g.size()), 1);
-    const auto closed = closed_links(g, free, {wall({4, -1}, {4, 8})});
+    const auto closed = closed_links(g, free, {wall({4, -1}, {4, 8})}, {0, 0, g.nx, g.ny});
     for (std::int64_t c = 0; c < g.size(); ++c) {
         for (unsigned k = 0; k < 8; ++k) {
             const std::int32_t x = g.ix(c) + around_dx[k];
@@ -161,6 +162,46 @@ TEST(ClosedLinks, ThinWallPartsItsTwoSides) {
             const bool across = inside && (g.ix(c) < 4) != (x < 4);
             EXPECT_EQ(closed[static_cast<std::size_t>(c)] >> k & 1U, across ? 1U : 0U);
         }
+    }
+}
+
+// Owners cut into windows: together the links of the whole, each of them noted at both its ends by
+// the one window that owns it.
+TEST(ClosedLinks, WindowsOfOwnersAddUpToTheWhole) {
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> place(-3, 28);
+    for (int i = 0; i < 20; ++i) {
+        const Grid g = make_grid({{0, 0}, {25, 20}}, 1, 0.001);
+        Raster<std::uint8_t> free(static_cast<std::size_t>(g.size()));
+        for (auto& cell : free) cell = random() % 8 != 0;
+        std::vector<Wall> walls;
+        for (int k = 0; k < 8; ++k) {
+            walls.push_back(wall({place(random), place(random)}, {place(random), place(random)}));
+        }
+        const auto whole = closed_links(g, free, walls, {0, 0, g.nx, g.ny});
+        Raster<std::uint8_t> sum(whole.size(), 0);
+        std::int64_t bits = 0;
+        for (std::int32_t y = 0; y < g.ny; y += 6) {
+            for (std::int32_t x = 0; x < g.nx; x += 9) {
+                const Window owners{x, y, std::min(x + 9, g.nx), std::min(y + 6, g.ny)};
+                const auto part = closed_links(g, free, walls, owners);
+                for (std::size_t c = 0; c < sum.size(); ++c) {
+                    EXPECT_EQ(sum[c] & part[c], 0) << "noted twice";
+                    sum[c] = static_cast<std::uint8_t>(sum[c] | part[c]);
+                    bits += std::popcount(part[c]);
+                }
+            }
+        }
+        EXPECT_EQ(sum, whole);
+        EXPECT_GT(bits, 50);
+    }
+}
+
+TEST(FreeCells, NeighboursRunCounterClockwiseFromEast) {
+    for (int k = 0; k < 8; ++k) {
+        const double angle = k * pi / 4;
+        EXPECT_EQ(around_dx[k], std::lround(std::cos(angle) * 1.1));
+        EXPECT_EQ(around_dy[k], std::lround(std::sin(angle) * 1.1));
     }
 }
 

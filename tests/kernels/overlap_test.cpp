@@ -11,16 +11,10 @@ constexpr std::array<OverlapRatio, 5> all = {OverlapRatio::min_len, OverlapRatio
                                              OverlapRatio::union_len, OverlapRatio::union_ang,
                                              OverlapRatio::mean_ang};
 
-// Pieces of the given lengths, one after the other on one wall.
+// Pieces of the given lengths, each the left side of a wall of its own.
 Pieces pieces_of(const std::vector<double>& lengths) {
     Pieces p;
-    double s = 0;
-    for (const double length : lengths) {
-        p.wall.push_back(0);
-        p.side.push_back(0);
-        p.s0_m.push_back(s);
-        p.s1_m.push_back(s += length);
-    }
+    for (const double length : lengths) p.add_wall(length, 1, 0);
     return p;
 }
 
@@ -129,6 +123,29 @@ TEST(Overlap, InvertedIndexEqualsAllPairs) {
             }
             EXPECT_EQ(k, got.size());
             EXPECT_GT(k, 50U);
+        }
+    }
+}
+
+// Rows that bring their lengths along give the same bits.
+TEST(Overlap, RowsWithLengthsGiveTheSame) {
+    const RandomTable t = random_table(9, 60, 120);
+    std::vector<OverlapRow> with_lengths;
+    for (const CoverageRow& row : t.rows) {
+        std::vector<SeenLength> seen;
+        for (const Seen& s : row) {
+            seen.push_back({s.piece, s.angle_rad, t.pieces.length_m(s.piece)});
+        }
+        with_lengths.push_back(overlap_row(std::move(seen)));
+    }
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        EXPECT_EQ(with_lengths[i].total.length_m, t.totals[i].length_m);
+        EXPECT_EQ(with_lengths[i].total.angle_rad, t.totals[i].angle_rad);
+        for (std::size_t k = 0; k < t.rows.size(); ++k) {
+            for (const OverlapRatio r : all) {
+                EXPECT_EQ(overlap(r, with_lengths[i], with_lengths[k]),
+                          overlap(r, t.pieces, t.rows[i], t.rows[k]));
+            }
         }
     }
 }

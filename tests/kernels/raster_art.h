@@ -9,7 +9,10 @@
 #include <vector>
 
 #include "kernels/distance.h"
+#include "kernels/free_cells.h"
 #include "kernels/grid.h"
+#include "kernels/ridges.h"
+#include "kernels/skeleton.h"
 
 namespace vfplan::test {
 
@@ -60,6 +63,41 @@ inline DistanceField distance_of(const Picture& p) {
     distance_columns(p.grid, p.set, 0, p.grid.nx, d);
     distance_rows(p.grid, p.set, 0, p.grid.ny, d);
     return d;
+}
+
+// Bit k: the neighbour k of a cell is set.
+inline unsigned neighbourhood(const Picture& p, std::int64_t cell) {
+    unsigned bits = 0;
+    for (unsigned k = 0; k < 8; ++k) {
+        if (p.has(p.grid.ix(cell) + around_dx[k], p.grid.iy(cell) + around_dy[k])) bits |= 1U << k;
+    }
+    return bits;
+}
+
+// The skeleton of a whole domain, where nothing is unknown.
+inline Picture skeleton_of(const Picture& domain) {
+    Picture out = domain;
+    const std::vector<Cell> state = thin(domain.grid, domain.set, distance_of(domain));
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        out.set[i] = static_cast<std::uint8_t>(state[i]);  // 2 would be no bit of a picture
+    }
+    return out;
+}
+
+// The set cells as a list and back.
+inline SkeletonCells cells_of(const Picture& p, const DistanceField& distance) {
+    SkeletonCells out;
+    for (std::int64_t c = 0; c < p.grid.size(); ++c) {
+        if (p.set[static_cast<std::size_t>(c)] == 0) continue;
+        out.cell.push_back(c);
+        out.squared.push_back(distance.squared[static_cast<std::size_t>(c)]);
+    }
+    return out;
+}
+inline Picture picture_of(const Grid& grid, const SkeletonCells& cells) {
+    Picture p = blank(grid.nx, grid.ny);
+    for (const std::int64_t c : cells.cell) p.set[static_cast<std::size_t>(c)] = 1;
+    return p;
 }
 
 // Rooms, corridors and specks: a random domain with components and holes of many sizes.

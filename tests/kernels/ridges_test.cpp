@@ -14,7 +14,20 @@ namespace {
 using test::draw;
 using test::Picture;
 
-RidgeGraph take_apart(const Picture& p) { return ridge_graph(p.grid, p.set); }
+RidgeGraph take_apart(const Picture& p) {
+    return ridge_graph(p.grid, test::cells_of(p, test::distance_of(p)));
+}
+
+// Prunes with the given clearances; the cells that stay are set.
+std::int64_t prune(Picture& p, const DistanceField& distance) {
+    SkeletonCells cells = test::cells_of(p, distance);
+    const std::int64_t pruned = prune_spurs(p.grid, cells);
+    p = test::picture_of(p.grid, cells);
+    for (std::size_t i = 0; i < cells.cell.size(); ++i) {  // each cell keeps its clearance
+        EXPECT_EQ(cells.squared[i], distance.squared[static_cast<std::size_t>(cells.cell[i])]);
+    }
+    return pruned;
+}
 
 TEST(Ridges, LineHasNoJoint) {
     const Picture p = draw({".........", ".#######.", "........."});
@@ -90,7 +103,7 @@ TEST(Ridges, EverySkeletonCellIsInOneRidgeOrAJointCluster) {
     std::mt19937_64 random(1);
     for (int i = 0; i < 30; ++i) {
         Picture p = test::random_domain(random, 40, 34);
-        p.set = thin(p.grid, p.set, test::distance_of(p));
+        p = test::skeleton_of(p);
         const RidgeGraph g = take_apart(p);
         std::set<std::int64_t> in_ridges;
         std::int64_t last_first = -1;
@@ -107,12 +120,12 @@ TEST(Ridges, EverySkeletonCellIsInOneRidgeOrAJointCluster) {
         }
         for (std::int64_t c = 0; c < p.grid.size(); ++c) {
             const bool set = p.set[static_cast<std::size_t>(c)] != 0;
-            const bool branches = std::popcount(neighbourhood(p.grid, p.set, c)) >= 3;
+            const bool branches = std::popcount(test::neighbourhood(p, c)) >= 3;
             EXPECT_EQ(in_ridges.contains(c), set && !branches);
         }
         for (const std::int64_t joint : g.joints) {
             EXPECT_NE(p.set[static_cast<std::size_t>(joint)], 0);
-            EXPECT_GE(std::popcount(neighbourhood(p.grid, p.set, joint)), 3);
+            EXPECT_GE(std::popcount(test::neighbourhood(p, joint)), 3);
         }
     }
 }
@@ -125,7 +138,7 @@ std::int64_t spurs_pruned(int length, Picture& p) {
     DistanceField d;
     d.resize(p.grid.size());
     for (auto& squared : d.squared) squared = 16;
-    return prune_spurs(p.grid, d, p.set);
+    return prune(p, d);
 }
 
 TEST(Ridges, SpursShorterThanTheClearanceGo) {
@@ -143,7 +156,7 @@ TEST(Ridges, LinesWithoutJointsAreNoSpurs) {
     DistanceField d;
     d.resize(p.grid.size());
     for (auto& squared : d.squared) squared = 100;
-    EXPECT_EQ(prune_spurs(p.grid, d, p.set), 0);
+    EXPECT_EQ(prune(p, d), 0);
     EXPECT_TRUE(p.has(1, 1) && p.has(2, 1) && p.has(3, 1));
 }
 
@@ -153,13 +166,13 @@ TEST(Ridges, PruningKeepsTopology) {
     for (int i = 0; i < 60; ++i) {
         Picture p = test::random_domain(random, 44, 38);
         const DistanceField d = test::distance_of(p);
-        p.set = thin(p.grid, p.set, d);
+        p = test::skeleton_of(p);
         const int parts = test::parts(p);
         const int holes = test::holes(p);
-        pruned += prune_spurs(p.grid, d, p.set);
+        pruned += prune(p, d);
         EXPECT_EQ(test::parts(p), parts) << i;
         EXPECT_EQ(test::holes(p), holes) << i;
-        EXPECT_EQ(prune_spurs(p.grid, d, p.set), 0);  // none is left
+        EXPECT_EQ(prune(p, d), 0);  // none is left
     }
     EXPECT_GT(pruned, 50);
 }

@@ -16,12 +16,7 @@ using test::distance_of;
 using test::holes;
 using test::parts;
 using test::Picture;
-
-Picture skeleton_of(const Picture& domain) {
-    Picture out = domain;
-    out.set = thin(domain.grid, domain.set, distance_of(domain));
-    return out;
-}
+using test::skeleton_of;
 
 Picture box(std::int32_t nx, std::int32_t ny) {
     Picture p = blank(nx + 4, ny + 4);
@@ -63,8 +58,7 @@ void expect_skeleton(const Picture& domain, const Picture& skeleton) {
             if (!skeleton.has(x, y)) continue;
             EXPECT_TRUE(domain.has(x, y));
             // One cell thin: only ends of lines could still go.
-            const unsigned bits =
-                neighbourhood(skeleton.grid, skeleton.set, skeleton.grid.id(x, y));
+            const unsigned bits = test::neighbourhood(skeleton, skeleton.grid.id(x, y));
             EXPECT_TRUE(!removable(skeleton, x, y) || std::popcount(bits) <= 2)
                 << "cell " << x << ", " << y << " is not needed";
         }
@@ -166,14 +160,15 @@ TEST(Skeleton, DependsOnTheDomainAlone) {
         const Picture domain = test::random_domain(random, 26, 24);
         const Picture here = skeleton_of(domain);
         EXPECT_EQ(here.set, skeleton_of(domain).set);
-        Picture moved = blank(26 + 11, 24 + 8);  // the same cells elsewhere in a larger grid
+        // The same cells elsewhere in a larger grid, where even columns and rows stay even.
+        Picture moved = blank(26 + 11, 24 + 8);
         for (std::int32_t y = 0; y < 24; ++y) {
-            for (std::int32_t x = 0; x < 26; ++x) moved.at(x + 7, y + 3) = domain.has(x, y);
+            for (std::int32_t x = 0; x < 26; ++x) moved.at(x + 8, y + 4) = domain.has(x, y);
         }
         const Picture there = skeleton_of(moved);
         for (std::int32_t y = 0; y < 24; ++y) {
             for (std::int32_t x = 0; x < 26; ++x) {
-                EXPECT_EQ(here.has(x, y), there.has(x + 7, y + 3)) << x << ", " << y;
+                EXPECT_EQ(here.has(x, y), there.has(x + 8, y + 4)) << x << ", " << y;
             }
         }
     }
@@ -186,14 +181,152 @@ TEST(Skeleton, FluxIsStrongOnTheAxisAndWeakBesideIt) {
     EXPECT_NEAR(outward_flux(corridor.grid, d, corridor.grid.id(22, 4)), 0, 0.05);
 }
 
-TEST(Skeleton, NeighbourhoodBitsRunCounterClockwiseFromEast) {
-    for (unsigned k = 0; k < 8; ++k) {
-        Picture p = blank(3, 3);
-        p.at(1 + around_dx[k], 1 + around_dy[k]) = 1;
-        EXPECT_EQ(neighbourhood(p.grid, p.set, p.grid.id(1, 1)), 1U << k);
+TEST(Skeleton, NothingIsUnknownOfAWhole) {
+    std::mt19937_64 random(3);
+    for (int i = 0; i < 20; ++i) {
+        const Picture domain = test::random_domain(random, 30, 20);
+        const auto state = thin(domain.grid, domain.set, distance_of(domain));
+        EXPECT_EQ(std::count(state.begin(), state.end(), Cell::unknown), 0);
     }
-    const Picture full = blank(3, 3, 1);
-    EXPECT_EQ(std::popcount(neighbourhood(full.grid, full.set, 0)), 3);  // a corner of the grid
+}
+
+// A window of a domain, as a picture of its own.
+Picture part_of_picture(const Picture& p, const Window& w) {
+    Picture out = blank(w.x_end - w.x_begin, w.y_end - w.y_begin);
+    for (std::int32_t y = w.y_begin; y < w.y_end; ++y) {
+        for (std::int32_t x = w.x_begin; x < w.x_end; ++x) {
+            out.at(x - w.x_begin, y - w.y_begin) = p.has(x, y) ? 1 : 0;
+        }
+    }
+    return out;
+}
+
+// Thins a window alone; returns the state of its cells.
+std::vector<Cell> thin_part(const Picture& domain, const Window& w) {
+    const Picture part = part_of_picture(domain, w);
+    return thin(part.grid, part.set, distance_of(part),
+                {w.x_begin,
+                 w.y_begin,
+                 {w.x_begin > 0, w.y_begin > 0, w.x_end < domain.grid.nx,
+                  w.y_end < domain.grid.ny}});
+}
+
+// What a window's thinning says differently from the whole's, and how much it leaves open within
+// `core`.
+struct Compared {
+    std::int64_t wrong = 0;
+    std::int64_t unknown = 0;
+    std::int64_t known = 0;
+};
+Compared compare(const Picture& domain, const Picture& skeleton, const Window& core,
+                 const Window& around) {
+    const std::vector<Cell> state = thin_part(domain, around);
+    Compared out;
+    for (std::int32_t y = around.y_begin; y < around.y_end; ++y) {
+        for (std::int32_t x = around.x_begin; x < around.x_end; ++x) {
+            const Cell s = state[static_cast<std::size_t>(y - around.y_begin) *
+                                     static_cast<std::size_t>(around.x_end - around.x_begin) +
+                                 static_cast<std::size_t>(x - around.x_begin)];
+            if (s == Cell::unknown) {
+                out.unknown += core.contains(x, y) ? 1 : 0;
+            } else {
+                ++out.known;
+                out.wrong += (s == Cell::present) != skeleton.has(x, y) ? 1 : 0;
+            }
+        }
+    }
+    return out;
+}
+
+// Rooms of a street map: large blocks, so that there are long ridges and wide places.
+Picture wide_domain(std::mt19937_64& random, std::int32_t nx, std::int32_t ny) {
+    Picture p = blank(nx, ny, 1);
+    const auto below = [&](std::int32_t n) {
+        return static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(n));
+    };
+    for (int k = 0; k < nx * ny / 250; ++k) {
+        const std::int32_t x0 = below(nx);
+        const std::int32_t y0 = below(ny);
+        const std::int32_t x1 = std::min(nx, x0 + 1 + below(9));
+        const std::int32_t y1 = std::min(ny, y0 + 1 + below(9));
+        for (std::int32_t y = y0; y < y1; ++y) {
+            for (std::int32_t x = x0; x < x1; ++x) p.at(x, y) = 0;
+        }
+    }
+    return p;
+}
+
+TEST(Skeleton, AWindowKnowsOnlyWhatIsTrueOfTheWhole) {
+    std::mt19937_64 random(4);
+    std::int64_t known = 0;
+    for (int i = 0; i < 60; ++i) {
+        const bool wide = i % 2 == 0;
+        const Picture domain = wide ? wide_domain(random, 70 + i % 7, 64 + i % 5)
+                                    : test::random_domain(random, 64 + i % 9, 66 + i % 7);
+        const Picture skeleton = skeleton_of(domain);
+        for (int k = 0; k < 12; ++k) {
+            const auto from = [&](std::int32_t n) {
+                return static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(n));
+            };
+            const std::int32_t x0 = k % 3 == 0 ? 0 : from(domain.grid.nx - 8);
+            const std::int32_t y0 = k % 4 == 0 ? 0 : from(domain.grid.ny - 8);
+            const Window w{x0, y0, k % 5 == 0 ? domain.grid.nx : x0 + 1 + from(domain.grid.nx - x0),
+                           k % 2 == 0 ? domain.grid.ny : y0 + 1 + from(domain.grid.ny - y0)};
+            const Compared c = compare(domain, skeleton, w, w);
+            ASSERT_EQ(c.wrong, 0) << "domain " << i << ", window " << w.x_begin << " " << w.y_begin
+                                  << " " << w.x_end << " " << w.y_end;
+            known += c.known;
+        }
+    }
+    EXPECT_GT(known, 300000);
+}
+
+TEST(Skeleton, UnknownCellsVanishWithAWiderMargin) {
+    std::mt19937_64 random(5);
+    std::array<std::int64_t, 5> unknown{};
+    constexpr std::array<std::int32_t, 5> margins = {0, 6, 12, 24, 48};
+    for (int i = 0; i < 12; ++i) {
+        const Picture domain = wide_domain(random, 150, 140);
+        const Picture skeleton = skeleton_of(domain);
+        const Window core{60, 50, 84, 80};
+        for (std::size_t m = 0; m < margins.size(); ++m) {
+            const Compared c =
+                compare(domain, skeleton, core, core.grown(margins[m], domain.grid));
+            EXPECT_EQ(c.wrong, 0);
+            unknown[m] += c.unknown;
+        }
+        // The whole grid as a part of itself leaves nothing open.
+        EXPECT_EQ(compare(domain, skeleton, core, {0, 0, 150, 140}).unknown, 0);
+    }
+    EXPECT_GT(unknown[0], 12 * 24 * 30 / 4);
+    for (std::size_t m = 1; m < margins.size(); ++m) EXPECT_LE(unknown[m], unknown[m - 1]);
+    EXPECT_EQ(unknown.back(), 0);
+}
+
+// Tiles with margins that double until their cores are known are the whole skeleton, cell by cell.
+TEST(Skeleton, TilesAddUpToTheWhole) {
+    std::mt19937_64 random(6);
+    for (int i = 0; i < 8; ++i) {
+        const Picture domain =
+            i % 2 == 0 ? wide_domain(random, 120, 90) : test::random_domain(random, 120, 90);
+        const Picture skeleton = skeleton_of(domain);
+        for (const std::int32_t side : {16, 28, 64}) {
+            for (std::int32_t y = 0; y < domain.grid.ny; y += side) {
+                for (std::int32_t x = 0; x < domain.grid.nx; x += side) {
+                    const Window core{x, y, std::min(x + side, domain.grid.nx),
+                                      std::min(y + side, domain.grid.ny)};
+                    std::int32_t margin = 8;
+                    Compared c;
+                    do {
+                        c = compare(domain, skeleton, core, core.grown(margin, domain.grid));
+                        ASSERT_EQ(c.wrong, 0);
+                        margin *= 2;
+                    } while (c.unknown > 0 && margin < 1000);
+                    EXPECT_EQ(c.unknown, 0);
+                }
+            }
+        }
+    }
 }
 
 }  // namespace

@@ -1,0 +1,81 @@
+// Tiles are portions of work only: any side, any number of threads, one result.
+#include <cmath>
+
+#include "io/tables.h"
+#include "program.h"
+
+namespace vfplan::test {
+namespace {
+
+void expect_same_field(const Path& a, const Path& b) {
+    const FieldFile one(a / "field.h5");
+    const FieldFile two(b / "field.h5");
+    ASSERT_EQ(one.grid().nx, two.grid().nx);
+    ASSERT_EQ(one.grid().ny, two.grid().ny);
+    const Window whole{0, 0, one.grid().nx, one.grid().ny};
+    const Raster<float> x = one.read(whole);
+    const Raster<float> y = two.read(whole);
+    std::int64_t differ = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        differ += x[i] == y[i] || (std::isnan(x[i]) && std::isnan(y[i])) ? 0 : 1;
+    }
+    EXPECT_EQ(differ, 0);
+}
+
+class Tiles : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Tiles, SidesAndThreadsDoNotMatter) {
+    const Scratch scratch;
+    const std::string kind = GetParam();
+    const bool city = kind == "city";
+    const std::string site =
+        generated(scratch, kind, city ? Words{"--size-km", "0.5"} : Words{});
+    const std::string job = scratch.write(
+        "job.toml",
+        "preset = \"" + std::string(city ? "outdoor" : "indoor") + "\"\n[site]\ninput = \"" + site +
+            "\"\n[field]\ncell_m = " + (city ? "1.5" : "0.05") + "\n[scanner]\nrange_max_m = " +
+            (city ? "25" : "3") + "\n[output]\nformats = [\"csv\", \"geojson\"]\n");
+    const auto run = [&](const std::string& dir, const std::string& side, const char* threads) {
+        vfplan_expect(0, {"run", job, "--out", scratch / dir, "--quiet", "--threads", threads,
+                          "--set", "field.tile_cells=" + side});
+        return Path(scratch / dir);
+    };
+    const Path first = run("first", "256", "1");
+    for (const auto& [side, threads] :
+         {std::pair("64", "2"), std::pair("100", "1"), std::pair("100", "3"),
+          std::pair("1024", "2"), std::pair("256", "2")}) {
+        const Path other = run("other", side, threads);
+        SCOPED_TRACE(std::string("tiles of ") + side + ", threads " + threads);
+        EXPECT_EQ(read_json(first / "summary.json")["result_sha256"],
+                  read_json(other / "summary.json")["result_sha256"]);
+        for (const char* name : {"coverage.h5", "shards/coverage-00000.h5", "plan.h5",
+                                 "stations.csv", "stations.geojson", "links.csv", "pieces.csv"}) {
+            EXPECT_EQ(read_bytes(first / name), read_bytes(other / name)) << name;
+        }
+        expect_same_field(first, other);
+        if (std::string(side) == "256") expect_same_bytes(first, other);
+        vfplan_expect(0, {"verify", other});
+        std::filesystem::remove_all(other);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sites, Tiles, ::testing::Values("city", "flat"),
+                         [](const auto& i) { return std::string(i.param); });
+
+// The tables of a run may be replanned and verified whatever the tiles of the job at hand.
+TEST(TilesTest, AnotherSideInAFinishedFolderChangesNothing) {
+    const Scratch scratch;
+    const std::string site = generated(scratch, "city", {"--size-km", "0.5"});
+    const std::string job = scratch.write(
+        "job.toml", "preset = \"outdoor\"\n[site]\ninput = \"" + site +
+                        "\"\n[field]\ncell_m = 4\ntile_cells = 64\n[output]\nformats = [\"csv\"]\n");
+    vfplan_expect(0, {"run", job, "--out", scratch / "run", "--quiet"});
+    const auto before = lasting_bytes(scratch / "run");
+    vfplan_expect(0, {"run", job, "--out", scratch / "run", "--quiet", "--set",
+                      "field.tile_cells=256"});
+    EXPECT_EQ(lasting_bytes(scratch / "run"), before);
+    vfplan_expect(0, {"verify", scratch / "run"});
+}
+
+}  // namespace
+}  // namespace vfplan::test
