@@ -55,8 +55,7 @@ TEST(Groups, AreTheClosureOfBeingNear) {
                 EXPECT_EQ(group[m], group[members.front()]);
             }
         }
-        EXPECT_EQ(std::count(met.begin(), met.end(), 1),
-                  static_cast<std::ptrdiff_t>(boxes.size()));
+        EXPECT_EQ(std::count(met.begin(), met.end(), 1), static_cast<std::ptrdiff_t>(boxes.size()));
         std::sort(group.begin(), group.end());
         const auto different = std::unique(group.begin(), group.end()) - group.begin();
         EXPECT_EQ(static_cast<std::ptrdiff_t>(got.size()), different);
@@ -80,8 +79,11 @@ void add_group(FeatureSet& set, double x, double y) {
 
 std::vector<std::int64_t> counts_of(const Site& site) {
     const CleaningCounts& c = site.counts;
-    return {site.buildings,  static_cast<std::int64_t>(site.walls.size()), c.features,
-            c.edges_in,      c.zero_length, c.duplicates, c.split, c.merged, c.inside_solids};
+    return {site.buildings, static_cast<std::int64_t>(site.walls.size()),
+            c.features,     c.edges_in,
+            c.zero_length,  c.duplicates,
+            c.split,        c.merged,
+            c.inside_solids};
 }
 
 TEST(Groups, OfOneKindAddUp) {
