@@ -76,8 +76,7 @@ void write_site(const Scene& scene, const std::filesystem::path& dir, const std:
     facts.pieces = pieces.size();
     facts.extent = scene.extent();
     const double reach = scene.config.scanner.range_max_m +
-                         eye_margin_m(scene.config.coverage.partition_m) +
-                         scene.config.site.snap_m;
+                         eye_margin_m(scene.config.coverage.partition_m) + scene.config.site.snap_m;
     std::filesystem::create_directories(dir / "shards");
     std::filesystem::create_directories(dir / "work");
     write_site_store(dir / "work" / "site.h5", key, scene.layout, facts, scene.walls(), pieces,

@@ -122,9 +122,7 @@ std::int64_t count_set(const Raster<std::uint8_t>& r) { return std::count(r.begi
 
 void stage_free_cells(benchmark::State& state, const std::string& site) {
     const Made& m = made(site);
-    timed(state, [&] {
-        return count_set(free_cells(m.scene->grid(), m.scene->site.free_region));
-    });
+    timed(state, [&] { return count_set(free_cells(m.scene->grid(), m.scene->site.free_region)); });
     per_item(state, "cells", m.scene->grid().size());
 }
 
@@ -245,9 +243,9 @@ void stage_write_tables(benchmark::State& state, const std::string& site) {
     };
     timed(state, write);
     const Raster<float> read = FieldFile(dir / "field.h5").read({0, 0, g.nx, g.ny});
-    const bool same = std::equal(
-        read.begin(), read.end(), m.vf_rad.begin(), m.vf_rad.end(),
-        [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); });
+    const bool same =
+        std::equal(read.begin(), read.end(), m.vf_rad.begin(), m.vf_rad.end(),
+                   [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); });
     if (!same || read_coverage(dir / "coverage.h5").entries() != m.coverage->entries()) {
         state.SkipWithError("what was written reads back as something else");
     }

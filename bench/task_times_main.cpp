@@ -23,8 +23,8 @@ namespace vfplan {
 namespace {
 
 constexpr int passes = 3;
-constexpr std::int32_t window_cells = 32;      // of the field
-constexpr std::int64_t eyes_per_task = 16;     // the grain of Scenes::each
+constexpr std::int32_t window_cells = 32;   // of the field
+constexpr std::int64_t eyes_per_task = 16;  // the grain of Scenes::each
 
 // The run's tables are not what this program computes.
 struct Differs : std::runtime_error {
@@ -81,9 +81,8 @@ std::vector<Task> field_tasks(Scenes& scenes, const FieldFile& field) {
         const std::int32_t ny = w.y_end - w.y_begin;
         for (std::int32_t y = 0; y < ny; y += window_cells) {
             for (std::int32_t x = 0; x < nx; x += window_cells) {
-                parts.push_back({p,
-                                 {x, y, std::min(x + window_cells, nx),
-                                  std::min(y + window_cells, ny)}});
+                parts.push_back(
+                    {p, {x, y, std::min(x + window_cells, nx), std::min(y + window_cells, ny)}});
             }
         }
     }
@@ -97,9 +96,10 @@ std::vector<Task> field_tasks(Scenes& scenes, const FieldFile& field) {
     for (std::size_t p = 0; p < was.size(); ++p) {
         for (std::size_t i = 0; i < was[p].size(); ++i) {
             if (standable[p][i] == 0 || was[p][i] == is[p][i]) continue;
-            throw Differs(fmt::format("field.h5 has {} rad at cell {} of patch {} and this program "
-                                      "{}",
-                                      was[p][i], i, p, is[p][i]));
+            throw Differs(
+                fmt::format("field.h5 has {} rad at cell {} of patch {} and this program "
+                            "{}",
+                            was[p][i], i, p, is[p][i]));
         }
     }
     return tasks;

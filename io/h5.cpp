@@ -488,6 +488,10 @@ herr_t read_slab(hid_t file, const std::string& name, const std::vector<hsize_t>
 template <class T>
 std::vector<T> Reader::read(const std::string& name, std::uint64_t from,
                             std::uint64_t count) const {
+    const Dims shape = dims(name);
+    if (shape.size() != 1 || from > shape[0] || count > shape[0] - from) {
+        impl_->fail(fmt::format("dataset {} has no values {} to {}", name, from, from + count));
+    }
     std::vector<T> out(count);
     if (count > 0 && read_slab(impl_->file, name, {from}, {count}, out) < 0) {
         impl_->fail("dataset " + name + " cannot be read");

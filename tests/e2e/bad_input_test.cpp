@@ -182,8 +182,8 @@ TEST_F(BadInput, LateErrorsDoNotSpoilTheFolder) {
                     "plan.required=[[5,5]]"});
     vfplan_expect(0, {"run", scratch / "job.toml", "--out", scratch / "again", "--set",
                       "plan.required=[[15,5]]"});
-    const Words blind = {"run", scratch / "job.toml", "--out", scratch / "blind", "--set",
-                         "field.threshold_rad=6.2"};
+    const Words blind = {"run",   scratch / "job.toml",     "--out", scratch / "blind",
+                         "--set", "field.threshold_rad=6.2"};
     const Output late = vfplan_expect(2, blind);
     EXPECT_NE(late.err.find("field.threshold_rad = 6.2"), std::string::npos) << late.err;
     expect_words(2, {"field.threshold_rad"}, blind);  // nor does it become more

@@ -29,7 +29,7 @@ std::string missing_mpi() {
     } while (false)
 
 // Runs a program as `n` processes.
-Output mpirun(int n, Words words) {
+Output mpirun(int n, Words words, const std::string& lines = "") {
     Words all = {"-n", std::to_string(n), "--oversubscribe", "--bind-to", "none"};
     all.insert(all.end(), words.begin(), words.end());
     return run_program("mpirun", all,
@@ -37,13 +37,18 @@ Output mpirun(int n, Words words) {
                         {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
                         // Open MPI keeps memory of plug-ins that it unloads: nobody can tell
                         // whose it was. The tests of one process look for leaks.
-                        {"ASAN_OPTIONS", "detect_leaks=0"}});
+                        {"ASAN_OPTIONS", "detect_leaks=0"},
+                        {"VFPLAN_RANKS_LINES", lines}});
 }
 
 Output ranks_main(const Words& words) {
     Words all = {VFPLAN_RANKS_MAIN};
     all.insert(all.end(), words.begin(), words.end());
-    return mpirun(3, all);
+    const Scratch scratch;
+    const std::string lines = scratch.write("lines", "");
+    Output o = mpirun(3, all, lines);
+    o.out = read_bytes(lines);
+    return o;
 }
 
 std::size_t count_of(const std::string& what, const std::string& text) {

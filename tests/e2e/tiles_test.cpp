@@ -28,13 +28,13 @@ TEST_P(Tiles, SidesAndThreadsDoNotMatter) {
     const Scratch scratch;
     const std::string kind = GetParam();
     const bool city = kind == "city";
-    const std::string site =
-        generated(scratch, kind, city ? Words{"--size-km", "0.5"} : Words{});
-    const std::string job = scratch.write(
-        "job.toml",
-        "preset = \"" + std::string(city ? "outdoor" : "indoor") + "\"\n[site]\ninput = \"" + site +
-            "\"\n[field]\ncell_m = " + (city ? "1.5" : "0.05") + "\n[scanner]\nrange_max_m = " +
-            (city ? "25" : "3") + "\n[output]\nformats = [\"csv\", \"geojson\"]\n");
+    const std::string site = generated(scratch, kind, city ? Words{"--size-km", "0.5"} : Words{});
+    const std::string job =
+        scratch.write("job.toml", "preset = \"" + std::string(city ? "outdoor" : "indoor") +
+                                      "\"\n[site]\ninput = \"" + site +
+                                      "\"\n[field]\ncell_m = " + (city ? "1.5" : "0.05") +
+                                      "\n[scanner]\nrange_max_m = " + (city ? "25" : "3") +
+                                      "\n[output]\nformats = [\"csv\", \"geojson\"]\n");
     const auto run = [&](const std::string& dir, const std::string& side, const char* threads) {
         vfplan_expect(0, {"run", job, "--out", scratch / dir, "--quiet", "--threads", threads,
                           "--set", "field.tile_cells=" + side});
@@ -67,12 +67,13 @@ TEST(TilesTest, AnotherSideInAFinishedFolderChangesNothing) {
     const Scratch scratch;
     const std::string site = generated(scratch, "city", {"--size-km", "0.5"});
     const std::string job = scratch.write(
-        "job.toml", "preset = \"outdoor\"\n[site]\ninput = \"" + site +
-                        "\"\n[field]\ncell_m = 4\ntile_cells = 64\n[output]\nformats = [\"csv\"]\n");
+        "job.toml",
+        "preset = \"outdoor\"\n[site]\ninput = \"" + site +
+            "\"\n[field]\ncell_m = 4\ntile_cells = 64\n[output]\nformats = [\"csv\"]\n");
     vfplan_expect(0, {"run", job, "--out", scratch / "run", "--quiet"});
     const auto before = lasting_bytes(scratch / "run");
-    vfplan_expect(0, {"run", job, "--out", scratch / "run", "--quiet", "--set",
-                      "field.tile_cells=256"});
+    vfplan_expect(
+        0, {"run", job, "--out", scratch / "run", "--quiet", "--set", "field.tile_cells=256"});
     EXPECT_EQ(lasting_bytes(scratch / "run"), before);
     vfplan_expect(0, {"verify", scratch / "run"});
 }

@@ -104,8 +104,7 @@ TEST(Candidates, ARidgeEndIsKeptExactlyWhereItAddsCoverage) {
         World::Setting s;
         s.scanner.range_max_m = range;
         const World h = hall(30, 10, s);
-        const Lines plus =
-            h.drawn({{{6, 5}, {28, 5}}, {{12, 5}, {12, 2}}, {{12, 5}, {12, 8}}});
+        const Lines plus = h.drawn({{{6, 5}, {28, 5}}, {{12, 5}, {12, 2}}, {{12, 5}, {12, 8}}});
         const CandidateResult found = h.candidates(plus, overlap_of(0.3));
         const CoverageRow from_joint = h.row(h.grid.centre(h.cell(12, 5)));
         std::vector<std::int64_t> want;
@@ -178,10 +177,9 @@ TEST(Candidates, NeighboursAlongRidgesOverlapEnough) {
                 if (!chosen.contains(c)) continue;
                 if (last >= 0) {
                     ++pairs;
-                    EXPECT_GE(
-                        overlap(site.options.ratio, w.pieces, w.row(w.grid.centre(last)),
-                                w.row(w.grid.centre(c))),
-                        site.options.threshold);
+                    EXPECT_GE(overlap(site.options.ratio, w.pieces, w.row(w.grid.centre(last)),
+                                      w.row(w.grid.centre(c))),
+                              site.options.threshold);
                 }
                 last = c;
             }

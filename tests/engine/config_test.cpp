@@ -200,7 +200,8 @@ TEST(Config, ParametersMustFitEachOther) {
         expect_words(message("", {std::string("visibility.rays=") + rays}), {"power of two"});
     }
     for (const char* side : {"66", "101"}) {
-        expect_words(message("", {std::string("field.tile_cells=") + side}), {side, "multiple of 4"});
+        expect_words(message("", {std::string("field.tile_cells=") + side}),
+                     {side, "multiple of 4"});
     }
     EXPECT_EQ(message("visibility.rays = 16\n"), "");
     expect_words(message("plan.method = \"certified\"\n"), {"must be one of", "refined"});

@@ -261,7 +261,7 @@ TEST(Flood, TheOrderOfSourcesPlaysNoPart) {
 // As far from the window's edge as the flood goes, it does not notice the edge.
 TEST(Flood, AWindowGivesTheSameWithinReach) {
     std::mt19937_64 random(12);
-    constexpr std::int32_t most = 60;   // six cells
+    constexpr std::int32_t most = 60;  // six cells
     constexpr std::int32_t margin = 6;
     std::int64_t reached = 0;
     for (int round = 0; round < 30; ++round) {

@@ -117,7 +117,8 @@ public:
         CandidateResult out;
         add_candidate_counts(work, out.report);
         out.report.rescued_pieces = rescued_pieces(work);
-        write_coverage_tables(work, make_coverage_blocks(work, make_links(work, out.report)), "{}");
+        make_links(work, out.report);
+        write_coverage_tables(work, make_coverage_blocks(work), "{}");
         const CoverageTables tables = read_coverage(dir / "coverage.h5");
         const CoverageEntries entries(dir / "coverage.h5");
         const auto pieces = entries.pieces(0, tables.entries());

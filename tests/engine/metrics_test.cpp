@@ -202,8 +202,8 @@ TEST(Pieces, IncidenceByTensOfDegrees) {
     const std::vector<Wall> walls = {{Vec2d(-5, 10), Vec2d(95, 10)}};
     Pieces ten;
     ten.add_wall(100, 10, 0);
-    const Metrics long_wall = measure(Threads(1), h.input(), plan_with({0}, {}, h.reach),
-                                      PiecePlaces(walls, ten), 100);
+    const Metrics long_wall =
+        measure(Threads(1), h.input(), plan_with({0}, {}, h.reach), PiecePlaces(walls, ten), 100);
     EXPECT_EQ(long_wall.incidence_tens, (std::vector<std::int64_t>{1, 0, 0, 0, 0, 0, 0, 0, 1}));
     EXPECT_EQ(long_wall.range_tenths, (std::vector<std::int64_t>{0, 1, 0, 0, 0, 0, 0, 0, 0, 1}));
 }

@@ -35,8 +35,7 @@ void expect_right(const World& w, const CandidateResult& r) {
     for (std::size_t p = 0; p < want.size(); ++p) {
         EXPECT_EQ(r.reach[p] == PieceStatus::covered, index.begin[p + 1] > index.begin[p]);
         EXPECT_EQ(r.reach[p], want[p] != 0 ? PieceStatus::covered : PieceStatus::no_viewpoint)
-            << "piece " << p << " of wall "
-            << w.pieces.place(static_cast<std::int64_t>(p)).wall;
+            << "piece " << p << " of wall " << w.pieces.place(static_cast<std::int64_t>(p)).wall;
     }
     for (std::size_t i = 0; i < r.candidates.size(); ++i) {
         if (r.candidates[i].kind != rescue) continue;

@@ -188,13 +188,13 @@ TEST(Scenes, TheFieldIsWhatIsSeenFromTheCentres) {
             double most = 0;
             for (std::int32_t y = 0; y < part.y_end; ++y) {
                 for (std::int32_t x = 0; x < part.x_end; ++x) {
-                    const Vec2d eye = city.layout.grid.centre(
-                        city.layout.grid.id(w.x_begin + x, w.y_begin + y));
+                    const Vec2d eye =
+                        city.layout.grid.centre(city.layout.grid.id(w.x_begin + x, w.y_begin + y));
                     const auto i = static_cast<std::size_t>(y) *
                                        static_cast<std::size_t>(w.x_end - w.x_begin) +
                                    static_cast<std::size_t>(x);
-                    most = std::max(most, std::abs(static_cast<double>(vf[i]) -
-                                                   city.by_the_whole(eye).vf_rad));
+                    most = std::max(
+                        most, std::abs(static_cast<double>(vf[i]) - city.by_the_whole(eye).vf_rad));
                 }
             }
             EXPECT_LT(most, std::string(kernel) == "exact" ? 1e-5 : 0.05) << kernel;

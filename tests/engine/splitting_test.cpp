@@ -57,9 +57,7 @@ TEST(Splitting, MiddlesUntilNeighboursOverlapEnough) {
 
 // A line along y between two joints: arms of a few cells across it at its ends.
 Lines between_joints(const World& w, double x0, double x1, double y) {
-    return w.drawn({{{x0, y}, {x1, y}},
-                    {{x0, y - 2}, {x0, y + 2}},
-                    {{x1, y - 2}, {x1, y + 2}}});
+    return w.drawn({{{x0, y}, {x1, y}}, {{x0, y - 2}, {x0, y + 2}}, {{x1, y - 2}, {x1, y + 2}}});
 }
 
 // The overlap of the two joints of such a line.
@@ -98,9 +96,8 @@ TEST(Splitting, TheMiddleIsThatOfTheArc) {
     s.scanner.range_max_m = 12;
     const World w = hall(40, 30, s);
     // Two joints; between them a straight part and a diagonal one.
-    const Lines lines = w.drawn({{{5, 5}, {15, 5}, {29, 19}},
-                                 {{5, 2}, {5, 8}},
-                                 {{27, 21}, {31, 17}}});
+    const Lines lines =
+        w.drawn({{{5, 5}, {15, 5}, {29, 19}}, {{5, 2}, {5, 8}}, {{27, 21}, {31, 17}}});
     ASSERT_EQ(lines.joints.size(), 2U);
     std::vector<std::int64_t> path;
     for (const Ridge& ridge : lines.ridges) {

@@ -125,7 +125,8 @@ TEST(Tiles, ClosedLinksAreThoseOfTheWholeGrid) {
     World::Setting s;
     s.tile_cells = 64;
     s.scanner.range_max_m = 4;
-    const std::vector<Wall> thin = {test::wall({3, 3.2}, {95, 60.7}), test::wall({31.5, 25}, {32, 62}),
+    const std::vector<Wall> thin = {test::wall({3, 3.2}, {95, 60.7}),
+                                    test::wall({31.5, 25}, {32, 62}),
                                     test::wall({10.3, 64}, {96.2, 64})};
     const World w(s, {box_ring(0, 0, 100, 70)}, thin);
     ASSERT_GT(w.layout.patches(), 4);

@@ -192,8 +192,8 @@ template <class T>
 void expect_packed_is_readable() {
     const test::TemporaryFile file("packed.h5");
     constexpr std::uint64_t chunk = 1000;
-    std::vector<std::size_t> sizes = {0, 1, 2, 3, 255, 256, 257, 719, 721, 999, 1000, 1001, 1439,
-                                      2000, 3001};
+    std::vector<std::size_t> sizes = {0,   1,   2,    3,    255,  256,  257, 719,
+                                      721, 999, 1000, 1001, 1439, 2000, 3001};
     {
         h5::Writer out(file.path());
         for (const std::size_t n : sizes) {
@@ -268,9 +268,9 @@ TEST(H5, AColumnThatComesBitByBitIsTheColumnInOnePiece) {
         out.begin<std::int32_t>("x", data.size(), 700);
         for (std::size_t i = 0; i < data.size(); i += step) {
             const auto to = std::min(data.size(), i + step);
-            out.append("x", std::vector<std::int32_t>(
-                                data.begin() + static_cast<std::ptrdiff_t>(i),
-                                data.begin() + static_cast<std::ptrdiff_t>(to)));
+            out.append("x",
+                       std::vector<std::int32_t>(data.begin() + static_cast<std::ptrdiff_t>(i),
+                                                 data.begin() + static_cast<std::ptrdiff_t>(to)));
         }
         out.close();
         EXPECT_EQ(read_text(bits.path()), read_text(whole.path())) << step;
@@ -310,10 +310,9 @@ TEST(H5, VirtualDatasetsShowTheirParts) {
                                  {{"parts/p0.h5", "plane", {0, 0}, {20, 30}},
                                   {"parts/p1.h5", "plane", {20, 30}, {20, 30}}},
                                  -99.0F);
-        out.write_virtual<std::int32_t>("run", {600},
-                                        {{"parts/p1.h5", "g/run", {0}, {300}},
-                                         {"parts/p0.h5", "g/run", {300}, {300}}},
-                                        -1);
+        out.write_virtual<std::int32_t>(
+            "run", {600},
+            {{"parts/p1.h5", "g/run", {0}, {300}}, {"parts/p0.h5", "g/run", {300}, {300}}}, -1);
         out.write_virtual<std::int32_t>("none", {0}, {}, -1);
         out.close();
     }
@@ -354,15 +353,21 @@ TEST(H5, AnyFlippedByteIsNoticedByName) {
     write_sample(file.path());
     const std::string bytes = read_text(file.path());
     std::mt19937_64 random(1);
-    std::vector<std::size_t> places = {0, 1, 8, 100, bytes.size() - 1, bytes.size() - 2,
-                                       bytes.size() - 79, bytes.size() - 80, bytes.size() - 81};
+    std::vector<std::size_t> places = {0,
+                                       1,
+                                       8,
+                                       100,
+                                       bytes.size() - 1,
+                                       bytes.size() - 2,
+                                       bytes.size() - 79,
+                                       bytes.size() - 80,
+                                       bytes.size() - 81};
     for (int i = 0; i < 200; ++i) places.push_back(random() % bytes.size());
     for (const std::size_t place : places) {
         std::string damaged = bytes;
         damaged[place] = static_cast<char>(damaged[place] ^ (1 << random() % 8));
         test::overwrite(file.path(), damaged);
-        const std::string message =
-            message_of_io_error([&] { const h5::Reader in(file.path()); });
+        const std::string message = message_of_io_error([&] { const h5::Reader in(file.path()); });
         EXPECT_NE(message.find("flipped.h5"), std::string::npos)
             << "byte " << place << " of " << bytes.size();
     }
@@ -375,9 +380,9 @@ TEST(H5, ATruncatedOrLengthenedFileIsNoticedByName) {
     write_sample(file.path());
     const std::string bytes = read_text(file.path());
     std::vector<std::string> all;
-    for (const std::size_t left : {std::size_t{0}, std::size_t{1}, std::size_t{79}, std::size_t{80},
-                                   std::size_t{81}, bytes.size() / 2, bytes.size() - 81,
-                                   bytes.size() - 80, bytes.size() - 1}) {
+    for (const std::size_t left :
+         {std::size_t{0}, std::size_t{1}, std::size_t{79}, std::size_t{80}, std::size_t{81},
+          bytes.size() / 2, bytes.size() - 81, bytes.size() - 80, bytes.size() - 1}) {
         all.push_back(bytes.substr(0, left));
     }
     all.push_back(bytes + "x");

@@ -54,12 +54,13 @@ struct Stored {
             for (std::int32_t iy = w.y_begin; iy < w.y_end; ++iy) {
                 for (std::int32_t ix = w.x_begin; ix < w.x_end; ++ix, ++i) {
                     if (standable[at(grid.id(ix, iy))] == 0) continue;
-                    bits.back()[i / 8] = static_cast<std::uint8_t>(bits.back()[i / 8] | 1U << i % 8);
+                    bits.back()[i / 8] =
+                        static_cast<std::uint8_t>(bits.back()[i / 8] | 1U << i % 8);
                 }
             }
         }
-        facts = {{5e5, 4e6}, "PROJCS[\"x\"]", R"({"site":1})", 12, 400, pieces.size(), 777,
-                 {{0, 0}, {148, 97}}};
+        facts = {{5e5, 4e6}, "PROJCS[\"x\"]",    R"({"site":1})", 12, 400, pieces.size(),
+                 777,        {{0, 0}, {148, 97}}};
         write_site_store(file.path(), "the key", layout, facts, walls, pieces, near, bits);
     }
 };

@@ -313,8 +313,9 @@ TEST(Tables, AnIndexIsNotWrittenOverDamagedShards) {
     const std::string bytes = read_text(f.tiles[2]);
     test::overwrite(f.tiles[2], bytes.substr(1));
     const std::filesystem::path other = f.folder.path() / "other.h5";
-    EXPECT_NE(message_of([&] { write_field_index(other, f.info, f.tiles); })
-                  .find(f.tiles[2].filename().string()),
+    EXPECT_NE(message_of([&] {
+                  write_field_index(other, f.info, f.tiles);
+              }).find(f.tiles[2].filename().string()),
               std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(other));
 }

@@ -64,8 +64,8 @@ TEST(Layout, PatchesAreSixRangesWideAndDoNotDependOnTiles) {
     EXPECT_EQ(a.patch_cells % 32, 0);
     EXPECT_EQ(some_layout(4000, 3000, 0.5, 40, 1000).patch_cells, a.patch_cells);
     EXPECT_EQ(some_layout(4000, 3000, 0.5, 40.1, 256).patch_cells, 512);  // rounded up
-    EXPECT_EQ(some_layout(90, 70, 0.5, 1000, 256).patch_cells, 96);  // no larger than the grid
-    EXPECT_EQ(some_layout(4000, 3000, 0.5, 0.1, 256).patch_cells, 32);  // nor less than a step
+    EXPECT_EQ(some_layout(90, 70, 0.5, 1000, 256).patch_cells, 96);       // no larger than the grid
+    EXPECT_EQ(some_layout(4000, 3000, 0.5, 0.1, 256).patch_cells, 32);    // nor less than a step
 }
 
 TEST(Layout, WindowsMeetThePatchesAndTilesOfTheirCells) {
@@ -157,8 +157,8 @@ TEST(Layout, NearWallsMissesNoneWithinReach) {
                         within = within || distance_to_patch(l, p, at) < reach - 1e-9;
                     }
                     if (!within) continue;
-                    EXPECT_TRUE(std::binary_search(of.begin(), of.end(),
-                                                   static_cast<std::int32_t>(w)))
+                    EXPECT_TRUE(
+                        std::binary_search(of.begin(), of.end(), static_cast<std::int32_t>(w)))
                         << "patch " << p << ", wall " << w;
                 }
             }

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "kernels/skeleton.h"
@@ -128,6 +130,72 @@ TEST(Ridges, EverySkeletonCellIsInOneRidgeOrAJointCluster) {
             EXPECT_GE(std::popcount(test::neighbourhood(p, joint)), 3);
         }
     }
+}
+
+// By the definition, on the raster: the groups of cells with three neighbours or more are joints,
+// the groups of the others are ridges, and a ridge's joints are those that its cells touch.
+TEST(Ridges, OfSparseCellsAreThoseOfTheRaster) {
+    std::mt19937_64 random(8);
+    std::size_t ridges = 0;
+    for (int i = 0; i < 80; ++i) {
+        // Up to the grid's border, so that rows wrap where they must not be taken for neighbours.
+        const Picture p = test::skeleton_of(test::random_domain(random, 12 + i % 31, 9 + i % 27));
+        const RidgeGraph g = take_apart(p);
+        const auto branches = [&](std::int64_t c) {
+            return std::popcount(test::neighbourhood(p, c)) >= 3;
+        };
+        const auto near = [&](std::int64_t c, auto&& f) {
+            for (int k = 0; k < 8; ++k) {
+                const std::int32_t x = p.grid.ix(c) + around_dx[k];
+                const std::int32_t y = p.grid.iy(c) + around_dy[k];
+                if (p.has(x, y)) f(p.grid.id(x, y));
+            }
+        };
+        std::map<std::int64_t, std::int64_t> group;  // cell to its group's first cell
+        for (std::int64_t c = 0; c < p.grid.size(); ++c) {
+            if (p.set[static_cast<std::size_t>(c)] == 0 || group.contains(c)) continue;
+            std::vector<std::int64_t> open = {c};
+            group[c] = c;
+            while (!open.empty()) {
+                const std::int64_t at = open.back();
+                open.pop_back();
+                near(at, [&](std::int64_t n) {
+                    if (branches(n) != branches(c) || group.contains(n)) return;
+                    group[n] = c;
+                    open.push_back(n);
+                });
+            }
+        }
+        std::set<std::int64_t> joints;
+        std::map<std::int64_t, std::set<std::int64_t>> lines;    // by group, its cells
+        std::map<std::int64_t, std::set<std::int64_t>> touched;  // by line, the joints' groups
+        for (const auto& [c, of] : group) {
+            if (branches(c)) {
+                joints.insert(of);
+                continue;
+            }
+            lines[of].insert(c);
+            near(c, [&](std::int64_t n) {
+                if (branches(n)) touched[of].insert(group[n]);
+            });
+        }
+        ASSERT_EQ(g.joints.size(), joints.size());
+        auto next = joints.begin();
+        for (const std::int64_t j : g.joints) EXPECT_EQ(group[j], *next++);  // in their order
+        ASSERT_EQ(g.ridges.size(), lines.size());
+        for (const Ridge& r : g.ridges) {
+            const std::int64_t of = group[r.cells.front()];
+            EXPECT_EQ(std::set(r.cells.begin(), r.cells.end()), lines[of]);
+            EXPECT_EQ(r.cells.size(), lines[of].size());
+            std::set<std::int64_t> ends;
+            for (const std::int32_t j : r.joint) {
+                if (j >= 0) ends.insert(group[g.joints[static_cast<std::size_t>(j)]]);
+            }
+            EXPECT_EQ(ends, touched[of]);
+            ++ridges;
+        }
+    }
+    EXPECT_GT(ridges, 400U);
 }
 
 // A line of 15 cells with a spur of `length` cells at its middle, and a clearance of 4 there.

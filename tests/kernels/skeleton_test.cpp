@@ -204,11 +204,11 @@ Picture part_of_picture(const Picture& p, const Window& w) {
 // Thins a window alone; returns the state of its cells.
 std::vector<Cell> thin_part(const Picture& domain, const Window& w) {
     const Picture part = part_of_picture(domain, w);
-    return thin(part.grid, part.set, distance_of(part),
-                {w.x_begin,
-                 w.y_begin,
-                 {w.x_begin > 0, w.y_begin > 0, w.x_end < domain.grid.nx,
-                  w.y_end < domain.grid.ny}});
+    return thin(
+        part.grid, part.set, distance_of(part),
+        {w.x_begin,
+         w.y_begin,
+         {w.x_begin > 0, w.y_begin > 0, w.x_end < domain.grid.nx, w.y_end < domain.grid.ny}});
 }
 
 // What a window's thinning says differently from the whole's, and how much it leaves open within
@@ -290,8 +290,7 @@ TEST(Skeleton, UnknownCellsVanishWithAWiderMargin) {
         const Picture skeleton = skeleton_of(domain);
         const Window core{60, 50, 84, 80};
         for (std::size_t m = 0; m < margins.size(); ++m) {
-            const Compared c =
-                compare(domain, skeleton, core, core.grown(margins[m], domain.grid));
+            const Compared c = compare(domain, skeleton, core, core.grown(margins[m], domain.grid));
             EXPECT_EQ(c.wrong, 0);
             unknown[m] += c.unknown;
         }
