@@ -270,9 +270,10 @@ void check_together(const Config& c, const std::string& name) {
         fail(fmt::format("visibility.rays = {} must be 0 or a power of two from 16 on", rays));
     }
     if (c.field.tile_cells % 4 != 0) {
-        fail(fmt::format("field.tile_cells = {} must be a multiple of 4, as cells are looked at in "
-                         "blocks of 4 x 4; {} is one",
-                         c.field.tile_cells, c.field.tile_cells / 4 * 4));
+        fail(
+            fmt::format("field.tile_cells = {} must be a multiple of 4, as cells are looked at in "
+                        "blocks of 4 x 4; {} is one",
+                        c.field.tile_cells, c.field.tile_cells / 4 * 4));
     }
 }
 

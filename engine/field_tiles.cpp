@@ -132,7 +132,8 @@ void make_field_tiles(const Work& work) {
             for (const std::int64_t patch : layout.patches_in(window)) {
                 counts += field_of_patch(work, patch, window, vf);
             }
-            // How many cells share a step depends on the processor, and equal jobs give equal bytes.
+            // How many cells share a step depends on the processor, and equal jobs give equal
+            // bytes.
             if (work.config.visibility.kernel == "exact") counts = {counts.cells, 0, 0, 0};
             h5::Writer file = shard_writer(path, work.key);
             const h5::Dims shape = {static_cast<std::uint64_t>(window.y_end - window.y_begin),
