@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <ctime>
+#include <optional>
 
 #include "engine/estimate.h"
 #include "engine/plan_stage.h"
@@ -135,25 +136,29 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
             [&] { text = estimate_text(estimate(config, threads, progress), config, threads); });
         return text;
     }
-    ranks.lead([&] {
-        dir.check(keys, options.fresh);
-        ClaimedFolder folder(dir, config, keys, options.fresh);
-        if (!tables_complete(dir.path(), keys.tables, progress)) {
-            dir.remove_plan();
-            make_site(config, dir.path(), keys.tables, threads, progress);
-        }
-        folder.keep();
-    });
-    if (!std::filesystem::exists(dir.file("field.h5")) ||
-        !std::filesystem::exists(dir.file("coverage.h5"))) {
-        make_tables(config, dir.path(), keys.tables, threads, ranks, progress);
-    } else {
-        ranks.lead([&] {  // what an end right behind the tables left
-            std::error_code ignored;
-            std::filesystem::remove_all(dir.file("work"), ignored);
+    std::optional<ClaimedFolder> claim;  // the leader's
+    try {
+        ranks.lead([&] {
+            dir.check(keys, options.fresh);
+            claim.emplace(dir, config, keys, options.fresh);
+            if (!tables_complete(dir.path(), keys.tables, progress)) {
+                dir.remove_plan();
+                make_site(config, dir.path(), keys.tables, threads, progress);
+            }
         });
-        progress.note("tables       of this job are complete in the folder and used as they are");
+        if (!std::filesystem::exists(dir.file("field.h5")) ||
+            !std::filesystem::exists(dir.file("coverage.h5"))) {
+            make_tables(config, dir.path(), keys.tables, threads, ranks, progress);
+        } else {
+            progress.note(
+                "tables       of this job are complete in the folder and used as they are");
+        }
+    } catch (const Error& e) {
+        // A job that cannot be done as it stands leaves nothing; of all others, shards stay.
+        if (claim && e.code() != Exit::usage && e.code() != Exit::input) claim->keep();
+        throw;
     }
+    if (claim) claim->keep();
     std::string text;
     ranks.lead([&] {
         dir.remove_work();
