@@ -12,7 +12,7 @@ VFPLAN := build/$(PRESET)/vfplan
 SOURCES = $(shell find kernels io engine tests bench -name '*.cpp' -o -name '*.h' | LC_ALL=C sort)
 
 .PHONY: help setup build configure program run test bench-build bench bench-check bench-counts \
-        scaling check-format format tidy clean
+        scaling area check-format format tidy clean
 
 help:  ## this list
 	@sed -nE 's/^([a-z-]+):.*  ## (.*)/\1|\2/p' Makefile | \
@@ -58,6 +58,9 @@ bench-counts: bench-build  ## the same without times: answers and counts of oper
 
 scaling: bench-build  ## threads, crops, city windows: runs/scaling/summary.md, CSV, plot (some minutes)
 	@bench/scaling.py --program build/bench/vfplan
+
+area: program  ## windows of a city and a county: memory and time by stage (half an hour)
+	@bench/area.py --program $(VFPLAN)
 
 check-format:  ## fail when clang-format would change a source
 	@clang-format --dry-run -Werror $(SOURCES)

@@ -42,8 +42,9 @@ PAPER = {"buildings": [132, 274, 379, 529, 637],
          "wall_s": [60 * minutes for minutes in (2.68, 30.84, 71.02, 967.48, 1505.36)]}
 CITY_KM2 = (1, 2, 4, 8, 16, 25)
 CORES = tuple(2**i for i in range(8))
-FILES = ("site", "tables", "files")  # stages that read and write
-IN_TASKS = ("field", "joints", "ridges", "rescue")  # stages that hand out tasks
+FILES = ("site", "tables", "read", "files", "hash")  # stages that read and write
+IN_TASKS = ("field", "skeleton", "joints", "ridges", "rescue", "parts", "ways", "links",
+            "coverage")  # stages that hand out tasks
 QUANTITIES = {"cpu_s": "processor time, whole job",
               "cpu_computing_s": "the same without reading and writing files",
               "cpu_field_s": "processor time, field",
@@ -324,7 +325,7 @@ def model(bench):
     for line in csv.DictReader(text.splitlines()):
         tasks[line["stage"]].append(float(line["seconds"]))
     sums = {k: sum(v) for k, v in tasks.items()}
-    share = sum(one[f"wall_{s}_s"] for s in IN_TASKS) / one["wall_s"]
+    share = sum(one.get(f"wall_{s}_s", 0) for s in IN_TASKS) / one["wall_s"]
     data = {"label": "model, not measured", "case": one["case"], "share_in_tasks": share,
             "tasks": {k: {"count": len(v), "sum_s": sums[k], "longest_s": max(v)}
                       for k, v in tasks.items()}, "cores": [], "measured": []}
