@@ -104,22 +104,4 @@ void CoverageTable::add(const CoverageRow& row) {
     begin.push_back(static_cast<std::int64_t>(seen.size()));
 }
 
-InvertedIndex invert(const CoverageTable& table, std::int64_t pieces) {
-    InvertedIndex out;
-    out.begin.assign(static_cast<std::size_t>(pieces) + 1, 0);
-    for (const Seen& s : table.seen) ++out.begin[static_cast<std::size_t>(s.piece) + 1];
-    for (std::size_t p = 0; p < static_cast<std::size_t>(pieces); ++p) {
-        out.begin[p + 1] += out.begin[p];
-    }
-    out.row.resize(table.seen.size());
-    std::vector<std::int64_t> next(out.begin.begin(), out.begin.end() - 1);
-    for (std::int64_t r = 0; r < table.rows(); ++r) {
-        for (const Seen* s = table.row_begin(r); s != table.row_end(r); ++s) {
-            out.row[static_cast<std::size_t>(next[static_cast<std::size_t>(s->piece)]++)] =
-                static_cast<std::int32_t>(r);
-        }
-    }
-    return out;
-}
-
 }  // namespace vfplan

@@ -85,12 +85,4 @@ struct CoverageTable {
     void add(const CoverageRow& row);
 };
 
-// For each piece the rows that cover it, ascending.
-struct InvertedIndex {
-    std::vector<std::int64_t> begin;
-    std::vector<std::int32_t> row;
-};
-
-InvertedIndex invert(const CoverageTable& table, std::int64_t pieces);
-
 }  // namespace vfplan

@@ -86,34 +86,4 @@ double overlap(OverlapRatio ratio, const OverlapRow& a, const OverlapRow& b) {
     return overlap(ratio, a.total, b.total, joint);
 }
 
-void overlaps_of_row(const Pieces& pieces, const CoverageTable& table, const InvertedIndex& index,
-                     const std::vector<SeenTotal>& totals, OverlapRatio ratio, double threshold,
-                     std::int32_t row, OverlapScratch& scratch, std::vector<OverlapPair>& out) {
-    scratch.joint.resize(static_cast<std::size_t>(table.rows()));
-    scratch.touched.clear();
-    for (const Seen* s = table.row_begin(row); s != table.row_end(row); ++s) {
-        const auto p = static_cast<std::size_t>(s->piece);
-        const auto first = index.row.begin() + index.begin[p];
-        const auto last = index.row.begin() + index.begin[p + 1];
-        for (auto other = std::upper_bound(first, last, row); other != last; ++other) {
-            SeenJointly& joint = scratch.joint[static_cast<std::size_t>(*other)];
-            if (joint.length_m == 0) scratch.touched.push_back(*other);
-            joint.length_m += pieces.length_m(s->piece);
-        }
-    }
-    std::sort(scratch.touched.begin(), scratch.touched.end());
-    const bool by_angle = ratio == OverlapRatio::union_ang || ratio == OverlapRatio::mean_ang;
-    for (const std::int32_t other : scratch.touched) {
-        SeenJointly joint = scratch.joint[static_cast<std::size_t>(other)];
-        scratch.joint[static_cast<std::size_t>(other)] = {};
-        if (by_angle) {  // the angle from the other side is not in the index
-            joint = seen_jointly(pieces, table.row_begin(row), table.row_end(row),
-                                 table.row_begin(other), table.row_end(other));
-        }
-        const double o = overlap(ratio, totals[static_cast<std::size_t>(row)],
-                                 totals[static_cast<std::size_t>(other)], joint);
-        if (o > 0 && o >= threshold) out.push_back({row, other, o});
-    }
-}
-
 }  // namespace vfplan

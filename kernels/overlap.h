@@ -64,15 +64,4 @@ struct OverlapPair {
     double overlap = 0;
 };
 
-// All pairs (from, to), to > from, of one row with O >= threshold (and > 0), ascending in `to`.
-// Goes through the inverted index: time is the number of shared pieces, not of pairs.
-// Thread-safe; `scratch` is the caller's and may be reused.
-struct OverlapScratch {
-    std::vector<SeenJointly> joint;
-    std::vector<std::int32_t> touched;
-};
-void overlaps_of_row(const Pieces& pieces, const CoverageTable& table, const InvertedIndex& index,
-                     const std::vector<SeenTotal>& totals, OverlapRatio ratio, double threshold,
-                     std::int32_t row, OverlapScratch& scratch, std::vector<OverlapPair>& out);
-
 }  // namespace vfplan

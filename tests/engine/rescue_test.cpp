@@ -1,6 +1,7 @@
 // Pieces that no joint or ridge sees: rescued, or without viewpoint (SPEC section 4).
 #include <gtest/gtest.h>
 
+#include "engine/piece_rows.h"
 #include "tests/engine/ground.h"
 
 namespace vfplan {
@@ -31,7 +32,7 @@ std::vector<std::uint8_t> coverable(const World& w) {
 // free cell that covers something that no other candidate of another kind does.
 void expect_right(const World& w, const CandidateResult& r) {
     const std::vector<std::uint8_t> want = coverable(w);
-    const InvertedIndex index = invert(r.table, w.pieces.size());
+    const PieceIndex index = index_of(piece_rows(r.table, false), w.pieces.size());
     for (std::size_t p = 0; p < want.size(); ++p) {
         EXPECT_EQ(r.reach[p] == PieceStatus::covered, index.begin[p + 1] > index.begin[p]);
         EXPECT_EQ(r.reach[p], want[p] != 0 ? PieceStatus::covered : PieceStatus::no_viewpoint)

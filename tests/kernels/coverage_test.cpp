@@ -216,18 +216,5 @@ TEST(Coverage, AnglesAndLengthsAddUpToTheView) {
     }
 }
 
-TEST(Coverage, InvertedIndexListsTheRowsOfEachPiece) {
-    CoverageTable table;
-    EXPECT_EQ(table.rows(), 0);
-    table.add({{1, 1, 1}, {4, 1, 1}});
-    table.add({});
-    table.add({{0, 1, 1}, {1, 1, 1}});
-    EXPECT_EQ(table.rows(), 3);
-    EXPECT_EQ(table.row_end(1) - table.row_begin(1), 0);
-    const InvertedIndex index = invert(table, 6);
-    EXPECT_EQ(index.begin, (std::vector<std::int64_t>{0, 1, 3, 3, 3, 4, 4}));
-    EXPECT_EQ(index.row, (std::vector<std::int32_t>{2, 0, 2, 0}));
-}
-
 }  // namespace
 }  // namespace vfplan
