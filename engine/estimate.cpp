@@ -24,8 +24,10 @@ constexpr int squares_tried = 6;
 class TemporaryFolder {
 public:
     TemporaryFolder() {
-        std::string name =
-            (std::filesystem::temp_directory_path() / "vfplan-estimate-XXXXXX").string();
+        std::error_code error;
+        std::filesystem::path base = std::filesystem::temp_directory_path(error);
+        if (error) base = "/tmp";
+        std::string name = (base / "vfplan-estimate-XXXXXX").string();
         if (mkdtemp(name.data()) == nullptr) {
             throw IoError(
                 fmt::format("{}: the folder cannot be created; free space there or set "

@@ -140,6 +140,9 @@ void make_field_tiles(const Work& work) {
                                     static_cast<std::uint64_t>(window.x_end - window.x_begin)};
             file.write("vf", vf, shape);
             file.write("closed", closed_of_tile(work, window), shape);
+            file.attribute("closed", "meaning",
+                           "bit k: a wall parts the cell from its neighbour k, counter-clockwise "
+                           "from east");
             file.attribute("/", "x_begin", std::int64_t{window.x_begin});
             file.attribute("/", "y_begin", std::int64_t{window.y_begin});
             file.attribute("/", "cells", counts.cells);

@@ -136,16 +136,17 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
             [&] { text = estimate_text(estimate(config, threads, progress), config, threads); });
         return text;
     }
+    std::optional<FolderLock> lock;      // the other ranks'
     std::optional<ClaimedFolder> claim;  // the leader's
     try {
         ranks.lead([&] {
-            dir.check(keys, options.fresh);
             claim.emplace(dir, config, keys, options.fresh);
             if (!tables_complete(dir.path(), keys.tables, progress)) {
                 dir.remove_plan();
                 make_site(config, dir.path(), keys.tables, threads, progress);
             }
         });
+        if (!ranks.leader()) lock.emplace(dir, false);
         if (!std::filesystem::exists(dir.file("field.h5")) ||
             !std::filesystem::exists(dir.file("coverage.h5"))) {
             make_tables(config, dir.path(), keys.tables, threads, ranks, progress);
@@ -187,7 +188,9 @@ std::string plan_again(const std::filesystem::path& path, const std::vector<std:
     }
     const Threads threads(thread_count);
     const RunDir dir(path);
-    return finish_plan(dir, dir.config(overrides), threads, progress);
+    const Config config = dir.config(overrides);
+    const FolderLock lock(dir, true);
+    return finish_plan(dir, config, threads, progress);
 }
 
 }  // namespace vfplan

@@ -42,7 +42,6 @@ Moment Moment::now() { return {seconds(CLOCK_MONOTONIC), seconds(CLOCK_PROCESS_C
 
 Progress::Progress(bool quiet, bool follower)
     : quiet_(quiet || follower),
-      mute_(quiet),
       terminal_(isatty(STDERR_FILENO) != 0),
       begin_(Moment::now()),
       stage_begin_(begin_),
@@ -116,7 +115,6 @@ void Progress::note(const std::string& text) {
 }
 
 void Progress::warn(const std::string& text) {
-    if (mute_) return;
     fmt::print(stderr, "{}warning: {}\n", terminal_ ? "\r\033[K" : "", text);
 }
 

@@ -44,7 +44,7 @@ public:
     // So many steps are done at least: for steps taken in order, by others too.
     void reach(std::int64_t steps);
     void note(const std::string& text);  // a line of its own
-    void warn(const std::string& text);  // the same with "warning:", on all ranks; not when quiet
+    void warn(const std::string& text);  // the same with "warning:", also when quiet
     void finish();                       // ends the last stage
     const std::vector<StageTime>& times() const { return times_; }
     double peak_rss_mb() const;  // highest resident memory of the process so far
@@ -55,7 +55,6 @@ private:
     void show(std::int64_t done, bool last);
 
     bool quiet_;
-    bool mute_;
     bool terminal_;
     Moment begin_;
     Moment stage_begin_;

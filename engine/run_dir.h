@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,8 @@ public:
     // Removes what a plan left (it must not stand beside other tables), or everything of a run.
     void remove_plan() const;
     void remove_run() const;
-    // Work in progress, and files that a killed process had not finished.
+    // Work in progress, files that a killed process had not finished, tiles of another size than
+    // those of field.h5.
     void remove_work() const;
 
     // The configuration of a finished precompute or run, with overrides. Throws IoError when it is
@@ -47,13 +49,29 @@ private:
     std::filesystem::path path_;
 };
 
-// Takes a run directory for a job: makes the folder, writes job.toml, clears away what `fresh`
-// makes again. So hours of work are not begun for a folder that cannot be written, and whoever
-// finds the folder later knows whose it is. What it made goes again unless keep() is called, so
-// that a job that never began leaves nothing.
+// Keeps other jobs from writing into a run directory while this process lives, on one machine and
+// where the file system locks for several. All ranks of a job hold it together.
+class FolderLock {
+public:
+    // `leader`: waits some seconds for others to end (processes of a killed mpirun live a little
+    // longer), then throws IoError. The other ranks join after the leader.
+    FolderLock(const RunDir& dir, bool leader);
+    ~FolderLock();
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+
+private:
+    int file_ = -1;
+};
+
+// Takes a run directory for a job: makes the folder, locks it, writes job.toml, clears away what
+// `fresh` makes again. So hours of work are not begun for a folder that cannot be written, and
+// whoever finds the folder later knows whose it is. What it made goes again unless keep() is
+// called, so that a job that never began leaves nothing.
 class ClaimedFolder {
 public:
-    // Throws IoError when the folder cannot be created or written.
+    // Throws as RunDir::check() and FolderLock; IoError when the folder cannot be created or
+    // written.
     ClaimedFolder(const RunDir& dir, const Config& config, const JobKeys& keys, bool fresh);
     ~ClaimedFolder();
     ClaimedFolder(const ClaimedFolder&) = delete;
@@ -64,6 +82,7 @@ private:
     void undo();
 
     const RunDir& dir_;
+    std::optional<FolderLock> lock_;
     bool kept_ = false;
     bool new_job_ = false;                        // there was no job.toml
     std::vector<std::filesystem::path> created_;  // folders, outermost first

@@ -77,6 +77,7 @@ void write_pieces(h5::Writer& file, const std::vector<Wall>& walls, const Pieces
         if (wall.size() >= at_once) flush();
     }
     flush();
+    file.attribute("pieces/side", "meaning", "0 left of the wall as it runs, 1 right");
     write_codes(file, "pieces/reach", reach, piece_status_names);
     file.write("walls/pieces_left", on_side[left]);
     file.write("walls/pieces_right", on_side[right]);

@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -65,16 +67,17 @@ hid_t type_of<std::int64_t>() {
     return H5T_STD_I64LE;
 }
 
-// No messages of the library's own; and nothing of it at the program's end, where it would fall
-// over a file that could not be closed because the disk is full.
+// No messages of the library's own, which it would print for each thread; and nothing of it at the
+// program's end, where it would fall over a file that could not be closed because the disk is full.
 void be_quiet() {
-    static const herr_t once = [] {
+    static const int once = [] {
         // One writes, then others read; and network file systems often cannot lock.
         setenv("HDF5_USE_FILE_LOCKING", "FALSE", 0);
-        H5dont_atexit();
-        return H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+        return H5dont_atexit();
     }();
+    thread_local const herr_t in_this_thread = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     (void)once;
+    (void)in_this_thread;
 }
 
 constexpr std::uint64_t plane_side = 512;  // chunks of two dimensions: 512 x 512
@@ -110,6 +113,7 @@ struct Writer::Impl {
     std::filesystem::path path;
     std::filesystem::path aside;
     hid_t file = -1;
+    bool published = false;
     std::map<std::string, Open> open = {};
 
     void write_chunk(const std::string& name, Open& o, const std::uint8_t* data) const {
@@ -151,8 +155,13 @@ struct Writer::Impl {
     }
 
     [[noreturn]] void fail(const std::string& what) const {
-        throw IoError(fmt::format("{}: cannot write {}; check free space and permissions",
-                                  path.string(), what));
+        constexpr std::uintmax_t next_to_nothing = 1U << 20U;
+        std::error_code error;
+        const auto space = std::filesystem::space(path.parent_path(), error);
+        const bool full = !error && space.available < next_to_nothing;
+        throw IoError(fmt::format("{}: cannot write {}; {}", path.string(), what,
+                                  full ? "the disk is full: free space there and run again"
+                                       : "check free space and permissions"));
     }
     void attribute(const std::string& object, const std::string& name, hid_t type, hid_t space,
                    const void* value) const {
@@ -162,7 +171,7 @@ struct Writer::Impl {
     }
 };
 
-Writer::Writer(std::filesystem::path path) : impl_(new Impl{std::move(path), {}, -1, {}}) {
+Writer::Writer(std::filesystem::path path) : impl_(new Impl{std::move(path), {}, -1, false, {}}) {
     be_quiet();
     impl_->aside = impl_->path;
     impl_->aside += ".tmp";
@@ -185,9 +194,9 @@ Writer::~Writer() {
     if (impl_->file >= 0) {
         for (auto& [name, o] : impl_->open) H5Dclose(o.set);
         H5Fclose(impl_->file);
-        std::error_code ignored;
-        std::filesystem::remove(impl_->aside, ignored);
     }
+    std::error_code ignored;
+    if (!impl_->published) std::filesystem::remove(impl_->aside, ignored);
     delete impl_;
 }
 
@@ -356,6 +365,7 @@ void Writer::close() {
         if (!out) impl_->fail("the file to its end");
     }
     publish(impl_->aside, impl_->path);
+    impl_->published = true;
 }
 
 namespace {
@@ -385,6 +395,10 @@ std::string checked_hash(const std::filesystem::path& path) {
         const std::lock_guard lock(guard);
         const auto found = known.find(path.string());
         if (found != known.end() && found->second.first == state) return found->second.second;
+    }
+    if (::access(path.c_str(), R_OK) != 0) {
+        throw IoError(fmt::format("{}: cannot be read: {}; check its permissions", path.string(),
+                                  std::strerror(errno)));
     }
     if (state.first < trailer_size) damaged(path, "too short for a whole file");
     Sha256 hash;

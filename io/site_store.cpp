@@ -50,6 +50,9 @@ private:
 void write_walls(h5::Writer& file, const std::string& group, const std::vector<Wall>& walls) {
     WallColumns columns(file, group, walls.size(), h5::Writer::default_chunk);
     columns.append(walls);
+    for (const char* name : {"scanned", "free_left", "free_right"}) {
+        file.attribute(group + "/" + name, "meaning", "0 no, 1 yes");
+    }
     write_code_names(file, group + "/class",
                      std::array<std::string_view, 4>{"wall", "window", "door", "obstacle"});
 }
