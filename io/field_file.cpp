@@ -42,7 +42,7 @@ void write_field_index(const std::filesystem::path& path, const FieldInfo& info,
                               std::numeric_limits<float>::quiet_NaN());
     file.attribute("vf", "long_name", "observed angle");
     file.attribute("vf", "units", "radian");
-    if (!info.crs_wkt.empty()) file.attribute("vf", "grid_mapping", "crs");
+    file.attribute("vf", "grid_mapping", "crs");
     file.attribute("vf", "_FillValue", std::numeric_limits<float>::quiet_NaN());
     file.scale("vf", 0, "y");
     file.scale("vf", 1, "x");
