@@ -158,6 +158,9 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
         // A job that cannot be done as it stands leaves nothing; of all others, shards stay.
         if (claim && e.code() != Exit::usage && e.code() != Exit::input) claim->keep();
         throw;
+    } catch (...) {  // out of memory, say
+        if (claim) claim->keep();
+        throw;
     }
     if (claim) claim->keep();
     std::string text;

@@ -3,18 +3,14 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
-#include <algorithm>
 #include <cmath>
 
+#include "engine/tables_stage.h"
 #include "kernels/error.h"
 
 namespace vfplan {
 
-OverlapRatio Work::ratio() const {
-    const auto found =
-        std::find(overlap_ratio_names.begin(), overlap_ratio_names.end(), config.overlap.ratio);
-    return static_cast<OverlapRatio>(found - overlap_ratio_names.begin());
-}
+OverlapRatio Work::ratio() const { return ratio_of(config.overlap.ratio); }
 
 std::int32_t Work::range_cells() const {
     return static_cast<std::int32_t>(std::ceil(config.scanner.range_max_m / config.field.cell_m));
