@@ -32,10 +32,11 @@ formats = ["csv"]
 """
 # The parts of a run that work tile by tile.
 TILED = {"field": ("field",), "skeleton": ("skeleton",),
-         "candidates": ("joints", "ridges", "rescue"), "links": ("parts", "ways", "links"),
+         "candidates": ("joints", "splits", "rescues"),
+         "connectors": ("components", "paths", "connectors"),
          "coverage": ("coverage",)}
-WHOLE = {"site": ("site",), "graph": ("graph",), "tables": ("tables",),
-         "plan": ("read", "overlap", "plan", "metrics", "joining", "files", "hash")}
+WHOLE = {"site": ("site",), "ridges": ("ridges",), "tables": ("tables",),
+         "plan": ("read", "overlap", "plan", "metrics", "join_thresholds", "files", "hash")}
 
 
 def centre_of(site):

@@ -45,7 +45,7 @@ struct Sample {
         exact = run(ExactScene(scene->walls(), scene->extent(), scene->scanner().range_max_m));
     }
     Raster<float> run(const ViewKernel& kernel, FieldCounts* counts = nullptr) const {
-        Raster<float> vf(at(scene->grid().size()), std::nanf(""));
+        Raster<float> vf(idx(scene->grid().size()), std::nanf(""));
         for (const Window& w : windows) {
             const FieldCounts c =
                 kernel.field(scene->scanner(), scene->grid(), w, scene->standable, vf);

@@ -43,7 +43,7 @@ PAPER = {"buildings": [132, 274, 379, 529, 637],
 CITY_KM2 = (1, 2, 4, 8, 16, 25)
 CORES = tuple(2**i for i in range(8))
 FILES = ("site", "tables", "read", "files", "hash")  # stages that read and write
-IN_TASKS = ("field", "skeleton", "joints", "ridges", "rescue", "parts", "ways", "links",
+IN_TASKS = ("field", "skeleton", "joints", "splits", "rescues", "components", "paths", "connectors",
             "coverage")  # stages that hand out tasks
 QUANTITIES = {"cpu_s": "processor time, whole job",
               "cpu_computing_s": "the same without reading and writing files",
@@ -391,7 +391,7 @@ def plot_strong(ax, _, fits):
     threads = fits["strong"]["threads"]
     ax.plot(threads, threads, color="0.6", ls=":", label="ideal")
     for (case, ups), style in zip(fits["strong"]["speed_up"].items(), ("o-", "s--")):
-        for stage, colour in (("field", "C0"), ("rescue", "C2"), ("whole", "C3")):
+        for stage, colour in (("field", "C0"), ("rescues", "C2"), ("whole", "C3")):
             ax.plot(threads, ups[stage], style, color=colour, label=f"{case}: {stage}")
     finish(ax, "Strong scaling", "threads", "speed-up of wall time", xscale="log", yscale="log")
     plain_ticks(ax.xaxis, threads)

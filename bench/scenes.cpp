@@ -8,10 +8,11 @@
 #include <map>
 #include <memory>
 
-#include "engine/generate.h"
+#include "engine/generate/generate.h"
+#include "engine/tables/shards.h"
 #include "io/files.h"
-#include "io/site_reader.h"
-#include "io/site_store.h"
+#include "io/site/site_reader.h"
+#include "io/tables/site_store.h"
 #include "kernels/free_cells.h"
 #include "kernels/index.h"
 
@@ -30,8 +31,8 @@ Scene make_scene(const std::string& name, const std::string& job, const std::str
     s.name = name;
     s.config = read_config(std::filesystem::path(VFPLAN_SOURCE_DIR) / "configs" / job,
                            {"site.input=" + site});
-    s.site = read_site(s.config.site.input, site_options(s.config)).site;
-    s.layout = layout_of(s.config, s.site);
+    s.site = read_site(s.config.site.input, ground_options(s.config).site).site;
+    s.layout = layout_of(ground_options(s.config), s.site);
     s.standable = free_cells(s.grid(), s.site.free_region);
     return s;
 }
@@ -75,13 +76,12 @@ void write_site(const Scene& scene, const std::filesystem::path& dir, const std:
     facts.walls = static_cast<std::int64_t>(scene.walls().size());
     facts.pieces = pieces.size();
     facts.extent = scene.extent();
-    const double reach = scene.config.scanner.range_max_m +
-                         eye_margin_m(scene.config.coverage.partition_m) + scene.config.site.snap_m;
-    std::filesystem::create_directories(dir / "shards");
-    std::filesystem::create_directories(dir / "work");
+    const GroundOptions ground = ground_options(scene.config);
+    const double reach_m = wall_reach_m(ground.range_max_m, ground.partition_m, ground.site.snap_m);
+    make_shard_folders(dir, ground.tile_cells);
     write_site_store(dir / "work" / "site.h5", key, scene.layout, facts, scene.walls(), pieces,
-                     near_walls(scene.layout, scene.walls(), reach),
-                     standable_bits(scene.config, scene.site, scene.layout, Threads(1)));
+                     near_walls(scene.layout, scene.walls(), reach_m),
+                     standable_bits(ground, scene.site, scene.layout, Threads(1)));
 }
 
 std::vector<Window> sample_windows(const Scene& scene, int every) {
@@ -105,7 +105,7 @@ std::vector<Vec2d> eyes_in(const Scene& scene, const std::vector<Window>& window
         for (std::int32_t iy = w.y_begin; iy < w.y_end; ++iy) {
             for (std::int32_t ix = w.x_begin; ix < w.x_end; ++ix) {
                 const std::int64_t cell = scene.grid().id(ix, iy);
-                if (scene.standable[at(cell)] != 0) {
+                if (scene.standable[idx(cell)] != 0) {
                     out.push_back(scene.grid().centre(cell));
                 }
             }

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/config.h"
-#include "engine/site_stage.h"
-#include "engine/tables_stage.h"
+#include "engine/config/config.h"
+#include "engine/config/options.h"
+#include "engine/tables/site.h"
 
 namespace vfplan::bench {
 
@@ -23,7 +23,7 @@ struct Scene {
     const std::vector<Wall>& walls() const { return site.walls; }
     const Box& extent() const { return site.extent; }
     const Grid& grid() const { return layout.grid; }
-    Scanner scanner() const { return scanner_of(config); }
+    Scanner scanner() const { return scene_options(config).scanner; }
 };
 
 // Side of the windows that threads take, cells.

@@ -10,11 +10,12 @@
 #include <memory>
 
 #include "bench/scenes.h"
-#include "engine/field_tiles.h"
-#include "engine/graph.h"
-#include "engine/plan_stage.h"
-#include "engine/work.h"
-#include "io/tables.h"
+#include "engine/plan/overlap_graph.h"
+#include "engine/plan/planning.h"
+#include "engine/tables/tables.h"
+#include "io/tables/coverage_file.h"
+#include "io/tables/field_file.h"
+#include "io/tables/field_tiles.h"
 #include "kernels/free_cells.h"
 #include "kernels/index.h"
 #include "kernels/ridges.h"
@@ -37,6 +38,7 @@ struct Made {
     Ranks ranks;
     Progress progress{true};
     Raster<float> vf_rad;
+    Raster<std::uint8_t> closed;
     Raster<std::uint8_t> domain;
     DistanceField distance;
     SkeletonCells skeleton;
@@ -54,20 +56,23 @@ struct Made {
                 patches.push_back(store.patch(p));
             }
             scenes = std::make_unique<Scenes>(
-                store.layout(), [of = std::move(patches)](std::int64_t p) { return of[at(p)]; },
+                store.layout(), [of = std::move(patches)](std::int64_t p) { return of[idx(p)]; },
                 scene_options(scene->config), 1000);
         }
-        make_tables(scene->config, dir, key, threads, ranks, progress);
+        make_tables(table_options(scene->config), dir, key, threads, ranks, progress);
         const Grid& g = scene->grid();
-        FieldWindow field = read_field_window(dir, scene->layout, {0, 0, g.nx, g.ny});
+        const FieldTiles tiles(scene->layout, {dir / "shards", "field",
+                                               "-" + std::to_string(scene->layout.tile_cells)});
+        FieldWindow field = tiles.window({0, 0, g.nx, g.ny});
         domain = field.domain(scene->config.field.threshold_rad);
         vf_rad = std::move(field.vf_rad);
+        closed = std::move(field.closed);
         make_distance();
         skeleton = thinned();
         coverage = std::make_unique<CoverageTables>(read_coverage(dir / "coverage.h5"));
         entries = std::make_unique<CoverageEntries>(dir / "coverage.h5");
         plan = std::make_unique<PlanTables>(
-            plan_tables_of(*coverage, *entries, plan_options(scene->config).ratio));
+            plan_tables_of(*coverage, *entries, plan_options(scene->config).overlap.ratio));
     }
     ~Made() {
         std::error_code ignored;
@@ -187,7 +192,7 @@ void stage_overlap(benchmark::State& state, const std::string& site) {
         const PieceIndex index = index_of(m.plan->rows, m.coverage->pieces.size());
         pairs = static_cast<std::size_t>(
             make_graph(overlap_pairs(m.threads, m.plan->rows, index, m.plan->piece_length_m,
-                                     options.ratio, options.threshold))
+                                     options.overlap))
                 .edges());
         return pairs;
     });
@@ -199,8 +204,8 @@ void stage_plan(benchmark::State& state, const std::string& site) {
     Made& m = made(site);
     std::size_t stations = 0;
     timed(state, [&] {
-        stations = plan_tables(plan_options(m.scene->config), m.scene->config.scanner.range_max_m,
-                               *m.plan, m.threads, m.progress)
+        stations = plan_stations(*m.plan, plan_options(m.scene->config),
+                                 m.scene->config.scanner.range_max_m, m.threads, m.progress)
                        .plan.stations.size();
         return stations;
     });
@@ -221,22 +226,17 @@ void stage_write_tables(benchmark::State& state, const std::string& site) {
     const auto angles = m.entries->angles_rad(0, m.coverage->entries());
     for (std::int64_t r = 0; r < m.coverage->rows(); ++r) {
         CoverageRow row;
-        for (std::int64_t i = m.coverage->begin[at(r)]; i < m.coverage->begin[at(r) + 1]; ++i) {
-            row.push_back({m.plan->rows.piece[at(i)], fractions[at(i)], angles[at(i)]});
+        for (std::int64_t i = m.coverage->begin[idx(r)]; i < m.coverage->begin[idx(r) + 1]; ++i) {
+            row.push_back({m.plan->rows.piece[idx(i)], fractions[idx(i)], angles[idx(i)]});
         }
         block.table.add(row);
     }
     Layout layout = m.scene->layout;
     layout.tile_cells = std::max(g.nx, g.ny);  // all in one
     const auto write = [&] {
-        h5::Writer field = shard_writer(tile, m.key);
-        field.write("vf", m.vf_rad,
-                    {static_cast<std::uint64_t>(g.ny), static_cast<std::uint64_t>(g.nx)});
-        finish_shard(field);
+        write_field_tile(tile, m.key, {{0, 0, g.nx, g.ny}, m.vf_rad, m.closed, {}});
         write_field_index(dir / "field.h5", {layout, {0, 0}, "", m.key, "{}"}, {tile});
-        h5::Writer table = shard_writer(rows, m.key);
-        write_block(table, block);
-        finish_shard(table);
+        write_coverage_block(rows, m.key, block);
         write_coverage_index(dir / "coverage.h5", m.coverage->walls, m.coverage->pieces, {rows},
                              {{0, 0}, "", m.key, "{}"});
         return m.vf_rad.size() + block.table.seen.size();

@@ -12,10 +12,11 @@
 #include <functional>
 #include <limits>
 
-#include "engine/run_dir.h"
-#include "engine/scenes.h"
-#include "engine/tables_stage.h"
-#include "io/tables.h"
+#include "engine/config/options.h"
+#include "engine/job/run_dir.h"
+#include "engine/tables/scenes.h"
+#include "io/tables/coverage_file.h"
+#include "io/tables/field_file.h"
 #include "kernels/error.h"
 #include "kernels/index.h"
 
@@ -46,12 +47,12 @@ double thread_cpu_s() {
 // as in a run, and not its own last pass. `work` returns the number of items of a task.
 std::vector<Task> best_of_passes(std::int64_t count,
                                  const std::function<std::int64_t(std::int64_t)>& work) {
-    std::vector<Task> tasks(at(count));
+    std::vector<Task> tasks(idx(count));
     for (int pass = 0; pass < passes; ++pass) {
         for (std::int64_t i = 0; i < count; ++i) {
             const double begin_s = thread_cpu_s();
-            tasks[at(i)].items = work(i);
-            tasks[at(i)].seconds = std::min(tasks[at(i)].seconds, thread_cpu_s() - begin_s);
+            tasks[idx(i)].items = work(i);
+            tasks[idx(i)].seconds = std::min(tasks[idx(i)].seconds, thread_cpu_s() - begin_s);
         }
     }
     return tasks;
@@ -65,15 +66,15 @@ std::vector<Task> field_tasks(Scenes& scenes, const FieldFile& field) {
         Window window;  // of the patch
     };
     std::vector<Part> parts;
-    std::vector<Raster<float>> was(at(layout.patches()));
+    std::vector<Raster<float>> was(idx(layout.patches()));
     std::vector<Raster<float>> is(was.size());
     std::vector<Raster<std::uint8_t>> standable(was.size());
     for (std::int64_t p = 0; p < layout.patches(); ++p) {
         const Window w = layout.patch_window(p);
-        was[at(p)] = field.read(w);
-        is[at(p)] = was[at(p)];
-        for (float& v : is[at(p)]) {
-            standable[at(p)].push_back(std::isnan(v) ? 0 : 1);
+        was[idx(p)] = field.read(w);
+        is[idx(p)] = was[idx(p)];
+        for (float& v : is[idx(p)]) {
+            standable[idx(p)].push_back(std::isnan(v) ? 0 : 1);
             if (!std::isnan(v)) v = 0;
         }
         scenes.of_patch(p);
@@ -88,9 +89,9 @@ std::vector<Task> field_tasks(Scenes& scenes, const FieldFile& field) {
     }
     std::vector<Task> tasks =
         best_of_passes(static_cast<std::int64_t>(parts.size()), [&](std::int64_t i) {
-            const Part& part = parts[at(i)];
+            const Part& part = parts[idx(i)];
             return scenes.of_patch(part.patch)
-                ->field(part.window, standable[at(part.patch)], is[at(part.patch)])
+                ->field(part.window, standable[idx(part.patch)], is[idx(part.patch)])
                 .cells;
         });
     for (std::size_t p = 0; p < was.size(); ++p) {
@@ -108,25 +109,25 @@ std::vector<Task> field_tasks(Scenes& scenes, const FieldFile& field) {
 std::vector<Task> coverage_tasks(Scenes& scenes, const CoverageTables& t,
                                  const CoverageEntries& entries) {
     const auto eyes = static_cast<std::int64_t>(t.candidates.size());
-    std::vector<CoverageRow> rows(at(eyes));
+    std::vector<CoverageRow> rows(idx(eyes));
     std::vector<Task> tasks =
         best_of_passes((eyes + eyes_per_task - 1) / eyes_per_task, [&](std::int64_t task) {
             const std::int64_t from = task * eyes_per_task;
             const std::int64_t to = std::min(from + eyes_per_task, eyes);
             for (std::int64_t i = from; i < to; ++i) {
-                rows[at(i)] = scenes.look(t.candidates[at(i)].at).row;
+                rows[idx(i)] = scenes.look(t.candidates[idx(i)].at).row;
             }
             return to - from;
         });
     for (std::int64_t i = 0; i < eyes; ++i) {
-        const std::int64_t from = t.begin[at(i)];
-        const std::int64_t count = t.begin[at(i) + 1] - from;
+        const std::int64_t from = t.begin[idx(i)];
+        const std::int64_t count = t.begin[idx(i) + 1] - from;
         const auto pieces = entries.pieces(from, count);
         const auto fractions = entries.fractions(from, count);
         const auto angles = entries.angles_rad(from, count);
-        bool same = rows[at(i)].size() == pieces.size();
+        bool same = rows[idx(i)].size() == pieces.size();
         for (std::size_t k = 0; same && k < pieces.size(); ++k) {
-            const Seen& s = rows[at(i)][k];
+            const Seen& s = rows[idx(i)][k];
             same = s.piece == pieces[k] && s.fraction == fractions[k] && s.angle_rad == angles[k];
         }
         if (!same) throw Differs(fmt::format("coverage.h5 has other pieces for candidate {}", i));
@@ -149,22 +150,10 @@ void measure(const RunDir& dir) {
     const SceneOptions options = scene_options(config);
     const NearWalls near = near_walls(
         layout, t.walls,
-        options.scanner.range_max_m + eye_margin_m(options.partition_m) + config.site.snap_m);
-    const auto site = [&](std::int64_t patch) {
-        PatchSite out;
-        for (std::int64_t i = near.begin[at(patch)]; i < near.begin[at(patch) + 1]; ++i) {
-            const std::int32_t w = near.wall[at(i)];
-            out.number.push_back(w);
-            out.walls.push_back(t.walls[at(w)]);
-            for (const Side side : {left, right}) {
-                out.first[side].push_back(t.pieces.count(w, side) > 0 ? t.pieces.first(w, side)
-                                                                      : -1);
-            }
-            out.count.push_back(std::max(t.pieces.count(w, left), t.pieces.count(w, right)));
-        }
-        return out;
-    };
-    Scenes scenes(layout, site, options, static_cast<int>(layout.patches()));
+        wall_reach_m(options.scanner.range_max_m, options.partition_m, config.site.snap_m));
+    Scenes scenes(
+        layout, [&](std::int64_t patch) { return patch_site(t.walls, t.pieces, near, patch); },
+        options, static_cast<int>(layout.patches()));
     const std::vector<Task> windows = field_tasks(scenes, field);
     const std::vector<Task> rows = coverage_tasks(scenes, t, entries);
     fmt::print("stage,task,items,seconds\n");

@@ -1,6 +1,6 @@
 #include <malloc.h>
 
-#include "engine/cli.h"
+#include "engine/cli/cli.h"
 
 int main(int argc, char** argv) {
     // Rasters and rows of a tile go back to the system when the tile is done. Left to itself, the

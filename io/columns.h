@@ -1,13 +1,14 @@
 // Columns of a table in HDF5.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "io/h5.h"
+#include "io/h5_writer.h"
+#include "kernels/names.h"
 
 namespace vfplan {
 
@@ -21,22 +22,20 @@ std::vector<T> column(const Items& items, F&& value) {
 }
 
 // Says what the numbers of a dataset mean.
-template <std::size_t N>
-void write_code_names(h5::Writer& file, const std::string& name,
-                      const std::array<std::string_view, N>& names) {
+inline void write_code_names(h5::Writer& file, const std::string& name,
+                             std::span<const std::string_view> names) {
     std::string meaning;
-    for (std::size_t i = 0; i < N; ++i) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
         meaning += (i > 0 ? ", " : "") + std::to_string(i) + " " + std::string(names[i]);
     }
     file.attribute(name, "meaning", meaning);
 }
 
-// A column of codes with what they mean.
-template <class E, std::size_t N>
-void write_codes(h5::Writer& file, const std::string& name, const std::vector<E>& codes,
-                 const std::array<std::string_view, N>& names) {
+// A column of an enumeration's values with what they mean.
+template <class E>
+void write_codes(h5::Writer& file, const std::string& name, const std::vector<E>& codes) {
     file.write(name, column<std::uint8_t>(codes, [](E e) { return e; }));
-    write_code_names(file, name, names);
+    write_code_names(file, name, names_of<E>());
 }
 
 }  // namespace vfplan

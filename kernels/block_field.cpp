@@ -1,3 +1,4 @@
+// Long because one walk over the rays of a block, its runs and its gaps shares all that it knows.
 #include "kernels/block_field.h"
 
 #include <emmintrin.h>
@@ -60,7 +61,7 @@ WallEnds::WallEnds(const std::vector<Wall>& walls) : next_(2 * walls.size()) {
     std::vector<std::int32_t> order(next_.size());
     std::iota(order.begin(), order.end(), 0);
     const auto point = [&](std::int32_t end) -> const Vec2d& {
-        const Wall& w = walls[at(end / 2)];
+        const Wall& w = walls[idx(end / 2)];
         return end % 2 == 0 ? w.a : w.b;
     };
     std::sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t j) {
@@ -72,7 +73,7 @@ WallEnds::WallEnds(const std::vector<Wall>& walls) : next_(2 * walls.size()) {
         std::size_t end = i + 1;
         while (end < order.size() && point(order[end]) == point(order[i])) ++end;
         for (std::size_t k = i; k < end; ++k) {
-            next_[at(order[k])] = order[k + 1 < end ? k + 1 : i];
+            next_[idx(order[k])] = order[k + 1 < end ? k + 1 : i];
         }
         i = end;
     }
@@ -90,11 +91,11 @@ BlockField::BlockField(const std::vector<Wall>& walls, const WallEnds& ends, con
       min2_(scanner.range_min_m * scanner.range_min_m),
       rays_(static_cast<std::int32_t>(directions.size() / packet_rays)),
       step_rad_(2 * pi / rays_),
-      met_(at(rays_)) {}
+      met_(idx(rays_)) {}
 
 // What is observed of a wall, when nothing hides it.
 void BlockField::cut_into_parts(std::int32_t wall, const Vec2d& eye) {
-    const Wall& w = walls_[at(wall)];
+    const Wall& w = walls_[idx(wall)];
     const double length = w.length_m();
     const bool on_left = orient(w.a, w.b, eye) >= 0;
     one_wall_.assign(1,
@@ -109,7 +110,7 @@ void BlockField::cut_into_parts(std::int32_t wall, const Vec2d& eye) {
 // Quick, and true of nearly all walls: the scanner's range does not cut it anywhere.
 bool BlockField::whole(std::int32_t wall, const Vec2d& eye, Stretch& out) const {
     if (wall < 0) return false;
-    const Wall& w = walls_[at(wall)];
+    const Wall& w = walls_[idx(wall)];
     const Vec2d a = w.a - eye;
     const Vec2d b = w.b - eye;
     const double area = cross(a, b);
@@ -130,7 +131,7 @@ BlockField::Stretch BlockField::stretch(std::int32_t wall, const Vec2d& eye, con
                                         bool& mixed) {
     mixed = false;
     Stretch out;
-    if (wall < 0 || !walls_[at(wall)].scanned || whole(wall, eye, out)) return out;
+    if (wall < 0 || !walls_[idx(wall)].scanned || whole(wall, eye, out)) return out;
     cut_into_parts(wall, eye);
     mixed = !parts_.empty();
     for (const Stretch& part : parts_) {
@@ -234,7 +235,7 @@ void BlockField::between_runs(std::uint32_t eye, std::int32_t ray, const Run& ru
         gaps_.push_back({eye, ray, false, true, run.wall, a, after.from});
     } else {
         // Something that is not observed stands in front: it begins, or ends, in between.
-        const Ends ends(walls_[at(before.observed ? next.wall : run.wall)], eyes_[eye]);
+        const Ends ends(walls_[idx(before.observed ? next.wall : run.wall)], eyes_[eye]);
         const Vec2d& border = before.observed ? ends.begin : ends.end;
         if (!between(a, border, b)) {
             unobserved_rad_[eye] += step_rad_ / 2;
@@ -245,7 +246,7 @@ void BlockField::between_runs(std::uint32_t eye, std::int32_t ray, const Run& ru
 }
 
 const Vec2d& BlockField::direction(std::int32_t ray, std::uint32_t eye) const {
-    return directions_[packet_rays * at(ray) + eye];
+    return directions_[packet_rays * idx(ray) + eye];
 }
 
 // How much of the directions from `a` to `b`, between rays `ray` - 1 and `ray`, no wall covers that
@@ -257,7 +258,7 @@ double BlockField::uncovered_rad(std::uint32_t eye, std::int32_t ray, const Vec2
     std::size_t tries = 0;
     for (const std::int32_t r : {ray == 0 ? rays_ - 1 : ray - 1, ray}) {
         for (std::size_t i = 0; i < count_; ++i) {
-            const std::int32_t wall = met_[at(r)][i];
+            const std::int32_t wall = met_[idx(r)][i];
             if (wall < 0 ||
                 std::find(tried.begin(), tried.begin() + tries, wall) != tried.begin() + tries) {
                 continue;
@@ -290,7 +291,7 @@ double BlockField::uncovered_rad(std::uint32_t eye, std::int32_t ray, const Vec2
 // Eyes whose rays `ray` - 1 and `ray` met nothing, while other eyes' rays met walls.
 void BlockField::look_into_sky(std::int32_t ray, std::uint32_t all) {
     const std::int32_t ray_before = ray == 0 ? rays_ - 1 : ray - 1;
-    const std::uint32_t sky = all & open(met_[at(ray_before)]) & open(met_[at(ray)]);
+    const std::uint32_t sky = all & open(met_[idx(ray_before)]) & open(met_[idx(ray)]);
     if (sky == all) return;
     for (std::uint32_t eyes = sky; eyes != 0; eyes &= eyes - 1) {
         const auto k = static_cast<std::uint32_t>(std::countr_zero(eyes));
@@ -308,8 +309,8 @@ void BlockField::look_at_rays() {
     }
     const std::uint32_t all = (1U << count_) - 1;
     for (std::int32_t i = 1; i < rays_; ++i) {
-        const PerRay<std::int32_t>& is = met_[at(i)];
-        const PerRay<std::int32_t>& was = met_[at(i - 1)];
+        const PerRay<std::int32_t>& is = met_[idx(i)];
+        const PerRay<std::int32_t>& was = met_[idx(i - 1)];
         look_into_sky(i, all);
         for (std::uint32_t bits = all & differing(was, is); bits != 0; bits &= bits - 1) {
             const auto k = static_cast<std::uint32_t>(std::countr_zero(bits));
@@ -346,7 +347,7 @@ void BlockField::past_from(Gap& gap, std::int32_t wall, const Vec2d& direction) 
     if (cross(s.to, gap.to) <= 0) {
         gap.closed = true;
         if (gap.open_to || gap.occluder < 0) return;
-        const Vec2d border = Ends(walls_[at(gap.occluder)], eyes_[gap.eye]).begin;
+        const Vec2d border = Ends(walls_[idx(gap.occluder)], eyes_[gap.eye]).begin;
         if (between(gap.from, border, gap.to)) {
             unobserved_rad_[gap.eye] += angle_rad(border, gap.to);
         }
@@ -366,7 +367,7 @@ void BlockField::before_to(Gap& gap, std::int32_t wall, const Vec2d& direction) 
     if (cross(gap.from, s.from) <= 0) {
         gap.closed = true;
         if (gap.occluder < 0) return;
-        const Vec2d border = Ends(walls_[at(gap.occluder)], eyes_[gap.eye]).end;
+        const Vec2d border = Ends(walls_[idx(gap.occluder)], eyes_[gap.eye]).end;
         if (between(gap.from, border, gap.to)) {
             unobserved_rad_[gap.eye] += angle_rad(gap.from, border);
         }

@@ -3,28 +3,32 @@
 
 #include <array>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
+#include "kernels/names.h"
+#include "kernels/overlap.h"
 #include "kernels/vec.h"
 
 namespace vfplan {
 
 // Why a point became a candidate.
 enum class CandidateKind : std::uint8_t {
-    joint,     // where ridges meet
-    middle,    // of a ridge without joints
-    ring,      // one of two opposite points of a closed ridge
-    end,       // of a ridge, where it adds coverage
-    split,     // inserted on a ridge for overlap
-    rescue,    // sees a piece that no other candidate covers
-    link,      // inserted between parts of the overlap graph
-    required,  // asked for by the user
-    existing,  // a scan that already exists
+    joint,      // where ridges meet
+    middle,     // of a ridge without joints
+    ring,       // one of two opposite points of a closed ridge
+    end,        // of a ridge, where it adds coverage
+    split,      // inserted on a ridge for overlap
+    rescue,     // sees a piece that no other candidate covers
+    connector,  // inserted between components of the overlap graph
+    required,   // asked for by the user
+    existing,   // a scan that already exists
 };
 
-inline constexpr std::array<std::string_view, 9> candidate_kind_names = {
-    "joint", "middle", "ring", "end", "split", "rescue", "link", "required", "existing"};
+template <>
+struct Names<CandidateKind> {
+    static constexpr std::array<std::string_view, 9> all = {
+        "joint", "middle", "ring", "end", "split", "rescue", "connector", "required", "existing"};
+};
 
 struct Candidate {
     Vec2d at{0, 0};          // site frame, metres
@@ -41,8 +45,11 @@ enum class PieceStatus : std::uint8_t {
     unreached,       // seen only from networks that cannot be joined to the main one
 };
 
-inline constexpr std::array<std::string_view, 4> piece_status_names = {
-    "covered", "no_viewpoint", "off_candidates", "unreached"};
+template <>
+struct Names<PieceStatus> {
+    static constexpr std::array<std::string_view, 4> all = {"covered", "no_viewpoint",
+                                                            "off_candidates", "unreached"};
+};
 
 // A chosen candidate.
 struct Station {
@@ -57,8 +64,8 @@ struct Station {
 struct Link {
     std::int32_t from = 0;
     std::int32_t to = 0;
-    double overlap = 0;              // by the ratio of the job
-    std::array<double, 5> ratios{};  // all five, in the order of OverlapRatio
+    double overlap = 0;                                // by the ratio of the job
+    std::array<double, overlap_ratio_count> ratios{};  // all of them, in the order of OverlapRatio
 };
 
 struct Plan {

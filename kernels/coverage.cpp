@@ -54,6 +54,21 @@ Pieces cut_into_pieces(const std::vector<Wall>& walls, double partition_m) {
     return out;
 }
 
+std::vector<double> piece_lengths_m(const Pieces& pieces) {
+    std::vector<double> out;
+    out.reserve(static_cast<std::size_t>(pieces.size()));
+    for (std::int32_t wall = 0; wall < pieces.walls(); ++wall) {
+        const double length = pieces.wall_length_m(wall);
+        for (const Side side : {left, right}) {
+            const std::int32_t n = pieces.count(wall, side);
+            for (std::int32_t k = 0; k < n; ++k) {
+                out.push_back(piece_begin_m(length, k + 1, n) - piece_begin_m(length, k, n));
+            }
+        }
+    }
+    return out;
+}
+
 CoverageRow coverage_row(const std::vector<Wall>& walls, const Pieces& pieces, const Vec2d& eye,
                          const View& observed, double visible_fraction) {
     std::vector<Part> parts;

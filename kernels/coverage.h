@@ -54,6 +54,9 @@ std::int32_t pieces_along(double length_m, double partition_m);
 // That many on each free side of each wall that has to be scanned.
 Pieces cut_into_pieces(const std::vector<Wall>& walls, double partition_m);
 
+// The length of every piece.
+std::vector<double> piece_lengths_m(const Pieces& pieces);
+
 // One piece as one station sees it. Floats, because that is what the table on disk keeps and a
 // plan made from the table must be the same plan.
 struct Seen {

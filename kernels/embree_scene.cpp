@@ -245,7 +245,7 @@ FieldCounts EmbreeScene::field(const Scanner& scanner, const Grid& grid, const W
             for (std::int32_t iy = y; iy < std::min(y + window_step, window.y_end); ++iy) {
                 for (std::int32_t ix = x; ix < std::min(x + window_step, window.x_end); ++ix) {
                     const std::int64_t cell = grid.id(ix, iy);
-                    if (standable[at(cell)] == 0) continue;
+                    if (standable[idx(cell)] == 0) continue;
                     eyes[count] = grid.centre(cell);
                     cells[count++] = cell;
                 }
@@ -253,7 +253,7 @@ FieldCounts EmbreeScene::field(const Scanner& scanner, const Grid& grid, const W
             if (count == 0) continue;
             block.angles(eyes, count, vf, counts);
             for (std::size_t i = 0; i < count; ++i) {
-                vf_rad[at(cells[i])] = static_cast<float>(vf[i]);
+                vf_rad[idx(cells[i])] = static_cast<float>(vf[i]);
             }
         }
     }

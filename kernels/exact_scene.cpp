@@ -78,10 +78,10 @@ void ExactScene::first_hits(const Vec2d& eye, View& out) const {
     const double reach2 = reach_m_ * reach_m_;
     thread_local std::vector<Cone> stack;  // the next cone counter-clockwise on top
     stack.clear();
-    const Triangle& triangle = expansion_.mesh.triangles[at(start)];
+    const Triangle& triangle = expansion_.mesh.triangles[idx(start)];
     for (std::size_t i = 3; i-- > 0;) {
-        const Vec2d r = expansion_.mesh.vertices[at(triangle.vertex[(i + 1) % 3])] - eye;
-        const Vec2d l = expansion_.mesh.vertices[at(triangle.vertex[(i + 2) % 3])] - eye;
+        const Vec2d r = expansion_.mesh.vertices[idx(triangle.vertex[(i + 1) % 3])] - eye;
+        const Vec2d l = expansion_.mesh.vertices[idx(triangle.vertex[(i + 2) % 3])] - eye;
         stack.push_back({expansion_.behind(start, i), r, l, r, l});
     }
     while (!stack.empty()) {
@@ -89,12 +89,12 @@ void ExactScene::first_hits(const Vec2d& eye, View& out) const {
         stack.pop_back();
         if (is_wall(cone.behind)) {
             const std::int32_t wall = wall_of(cone.behind);
-            emit(walls_[at(wall)], wall, eye, cone, out);
+            emit(walls_[idx(wall)], wall, eye, cone, out);
             continue;
         }
         if (cone.behind == behind_hull) continue;
         if (!nearer_than(reach2, cone.edge_right, cone.edge_left)) continue;
-        const Crossing& c = expansion_.crossings[at(cone.behind)];
+        const Crossing& c = expansion_.crossings[idx(cone.behind)];
         const Vec2d apex = Vec2d(c.apex_x, c.apex_y) - eye;
         const bool opens_right = cross(cone.right, apex) > 0;
         const bool opens_left = cross(apex, cone.left) > 0;
@@ -129,8 +129,8 @@ FieldCounts ExactScene::angles(const Scanner& scanner, const std::vector<Vec2d>&
     e.y.resize(n);
     e.vf_rad.assign(n, 0);
     for (std::size_t i = 0; i < n; ++i) {
-        e.x[i] = eyes[at(e.places[i].eye)].x();
-        e.y[i] = eyes[at(e.places[i].eye)].y();
+        e.x[i] = eyes[idx(e.places[i].eye)].x();
+        e.y[i] = eyes[idx(e.places[i].eye)].y();
     }
     FieldCounts counts;
     for (std::size_t i = 0; i < n;) {
@@ -143,7 +143,7 @@ FieldCounts ExactScene::angles(const Scanner& scanner, const std::vector<Vec2d>&
         i = end;
     }
     vf_rad.resize(n);
-    for (std::size_t i = 0; i < n; ++i) vf_rad[at(e.places[i].eye)] = e.vf_rad[i];
+    for (std::size_t i = 0; i < n; ++i) vf_rad[idx(e.places[i].eye)] = e.vf_rad[i];
     return counts;
 }
 
@@ -157,13 +157,14 @@ FieldCounts ExactScene::field(const Scanner& scanner, const Grid& grid, const Wi
         for (std::int32_t k = 0; k < window.x_end - window.x_begin; ++k) {
             const std::int32_t ix = even ? window.x_begin + k : window.x_end - 1 - k;
             const std::int64_t cell = grid.id(ix, iy);
-            if (standable[at(cell)] == 0) continue;
+            if (standable[idx(cell)] == 0) continue;
             cells.push_back(cell);
             eyes.push_back(grid.centre(cell));
         }
     }
     const FieldCounts counts = angles(scanner, eyes, vf);
-    for (std::size_t i = 0; i < cells.size(); ++i) vf_rad[at(cells[i])] = static_cast<float>(vf[i]);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        vf_rad[idx(cells[i])] = static_cast<float>(vf[i]);
     return counts;
 }
 

@@ -51,6 +51,12 @@ struct Window {
     }
 };
 
+// The cells that lie in both; of no extent where there are none.
+inline Window shared(const Window& a, const Window& b) {
+    return {std::max(a.x_begin, b.x_begin), std::max(a.y_begin, b.y_begin),
+            std::min(a.x_end, b.x_end), std::min(a.y_end, b.y_end)};
+}
+
 // The cells of a window as a grid of their own. Rows and columns keep their order, so what is
 // decided by the order of cells is decided alike.
 inline Grid part_of(const Grid& grid, const Window& w) {

@@ -8,7 +8,7 @@
 namespace vfplan {
 
 // REQUIRES: i >= 0.
-inline std::size_t at(std::int64_t i) {
+inline std::size_t idx(std::int64_t i) {
     assert(i >= 0);
     return static_cast<std::size_t>(i);
 }

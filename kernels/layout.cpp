@@ -86,18 +86,22 @@ Layout make_layout(const Grid& grid, double range_max_m, std::int64_t tile_cells
 
 double eye_margin_m(double partition_m) { return partition_m + 1; }
 
+double wall_reach_m(double range_max_m, double partition_m, double snap_m) {
+    return range_max_m + eye_margin_m(partition_m) + snap_m;
+}
+
 NearWalls near_walls(const Layout& layout, const std::vector<Wall>& walls, double reach_m) {
     NearWalls out;
-    out.begin.assign(at(layout.patches()) + 1, 0);
+    out.begin.assign(idx(layout.patches()) + 1, 0);
     for (const Wall& wall : walls) {
-        each_near(layout, wall, reach_m, [&](std::int64_t p) { ++out.begin[at(p) + 1]; });
+        each_near(layout, wall, reach_m, [&](std::int64_t p) { ++out.begin[idx(p) + 1]; });
     }
     for (std::size_t p = 0; p + 1 < out.begin.size(); ++p) out.begin[p + 1] += out.begin[p];
-    out.wall.resize(at(out.begin.back()));
+    out.wall.resize(idx(out.begin.back()));
     std::vector<std::int64_t> next(out.begin.begin(), out.begin.end() - 1);
     for (std::size_t w = 0; w < walls.size(); ++w) {
         each_near(layout, walls[w], reach_m, [&](std::int64_t p) {
-            out.wall[at(next[at(p)]++)] = static_cast<std::int32_t>(w);
+            out.wall[idx(next[idx(p)]++)] = static_cast<std::int32_t>(w);
         });
     }
     return out;

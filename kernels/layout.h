@@ -54,6 +54,10 @@ Layout make_layout(const Grid& grid, double range_max_m, std::int64_t tile_cells
 // from points before the pieces of the patch's walls.
 double eye_margin_m(double partition_m);
 
+// How far from a patch a wall may be and still be seen from an eye that is looked from in its
+// scene.
+double wall_reach_m(double range_max_m, double partition_m, double snap_m);
+
 // For each patch the walls whose boxes come within `reach_m` of it, ascending, as compressed rows.
 struct NearWalls {
     std::vector<std::int64_t> begin = {0};

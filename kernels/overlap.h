@@ -1,67 +1,118 @@
 // How much two stations see in common: the five ratios of equations 8 to 12.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
-#include <vector>
 
-#include "kernels/coverage.h"
+#include "kernels/names.h"
 
 namespace vfplan {
 
-enum class OverlapRatio : std::uint8_t { min_len, mean_len, union_len, union_ang, mean_ang };
-
-inline constexpr std::array<std::string_view, 5> overlap_ratio_names = {
-    "min_len", "mean_len", "union_len", "union_ang", "mean_ang"};
-
-// What one station sees in all.
+// Sums over the pieces that a station covers, each counted whole.
 struct SeenTotal {
     double length_m = 0;
     double angle_rad = 0;
 };
 
-// What two stations see in common: the length, and its angle from each of them.
+// The same over the pieces that two stations cover: length, and angle from each of them.
 struct SeenJointly {
     double length_m = 0;
     double angle_a_rad = 0;
     double angle_b_rad = 0;
 };
 
-// Sums over whole pieces with C = 1, in order of piece.
-SeenTotal seen_total(const Pieces& pieces, const Seen* begin, const Seen* end);
-SeenJointly seen_jointly(const Pieces& pieces, const Seen* a, const Seen* a_end, const Seen* b,
-                         const Seen* b_end);
+enum class OverlapRatio : std::uint8_t {
+    min_len,
+    mean_len,
+    union_len,
+    union_ang,
+    mean_ang,
+    count  // how many there are
+};
+
+struct OverlapFormula {
+    OverlapRatio ratio;
+    std::string_view name;
+    bool by_angle;  // needs angles
+    double (*of)(const SeenTotal& a, const SeenTotal& b, const SeenJointly& joint);
+};
+
+namespace overlap_formulas {
+
+// 0 where nothing is seen.
+constexpr double share(double part, double whole) { return whole > 0 ? part / whole : 0.0; }
+
+}  // namespace overlap_formulas
+
+// All that is known of the ratios, in the order of the enumeration.
+inline constexpr std::array overlap_ratios = {
+    OverlapFormula{OverlapRatio::min_len, "min_len", false,
+                   [](const SeenTotal& a, const SeenTotal& b, const SeenJointly& joint) {
+                       return overlap_formulas::share(joint.length_m,
+                                                      std::min(a.length_m, b.length_m));
+                   }},
+    OverlapFormula{OverlapRatio::mean_len, "mean_len", false,
+                   [](const SeenTotal& a, const SeenTotal& b, const SeenJointly& joint) {
+                       return overlap_formulas::share(2 * joint.length_m, a.length_m + b.length_m);
+                   }},
+    OverlapFormula{OverlapRatio::union_len, "union_len", false,
+                   [](const SeenTotal& a, const SeenTotal& b, const SeenJointly& joint) {
+                       return overlap_formulas::share(joint.length_m,
+                                                      a.length_m + b.length_m - joint.length_m);
+                   }},
+    OverlapFormula{OverlapRatio::union_ang, "union_ang", true,
+                   [](const SeenTotal& a, const SeenTotal& b, const SeenJointly& joint) {
+                       return overlap_formulas::share(joint.angle_a_rad + joint.angle_b_rad,
+                                                      a.angle_rad + b.angle_rad);
+                   }},
+    OverlapFormula{OverlapRatio::mean_ang, "mean_ang", true,
+                   [](const SeenTotal& a, const SeenTotal& b, const SeenJointly& joint) {
+                       return overlap_formulas::share(joint.angle_a_rad, 2 * a.angle_rad) +
+                              overlap_formulas::share(joint.angle_b_rad, 2 * b.angle_rad);
+                   }},
+};
+
+inline constexpr auto overlap_ratio_count = static_cast<std::size_t>(OverlapRatio::count);
+static_assert(overlap_ratios.size() == overlap_ratio_count, "each ratio has its formula");
+static_assert(
+    [] {
+        for (std::size_t r = 0; r < overlap_ratios.size(); ++r) {
+            if (overlap_ratios[r].ratio != static_cast<OverlapRatio>(r)) return false;
+        }
+        return true;
+    }(),
+    "formulas stand in the order of the enumeration");
+
+template <>
+struct Names<OverlapRatio> {
+    static constexpr auto all = [] {
+        std::array<std::string_view, overlap_ratio_count> names;
+        for (const OverlapFormula& f : overlap_ratios) {
+            names[static_cast<std::size_t>(f.ratio)] = f.name;
+        }
+        return names;
+    }();
+};
+
+constexpr const OverlapFormula& formula(OverlapRatio ratio) {
+    return overlap_ratios[static_cast<std::size_t>(ratio)];
+}
 
 //  (1) 0 <= O <= 1;  (2) O(a, b) == O(b, a);  (3) O(a, a) == 1 where a sees anything
 //  (4) 0 where the denominator is 0
-double overlap(OverlapRatio ratio, const SeenTotal& a, const SeenTotal& b,
-               const SeenJointly& joint);
+inline double overlap(OverlapRatio ratio, const SeenTotal& a, const SeenTotal& b,
+                      const SeenJointly& joint) {
+    return formula(ratio).of(a, b, joint);
+}
 
-// Straight from two rows.
-double overlap(OverlapRatio ratio, const Pieces& pieces, const CoverageRow& a,
-               const CoverageRow& b);
+// When two stations can be registered with each other.
+struct OverlapRule {
+    OverlapRatio ratio = OverlapRatio::mean_len;
+    double threshold = 0.3;
 
-// A row that brings the lengths of its pieces along, for places where the table of all pieces is
-// not at hand.
-struct SeenLength {
-    std::int32_t piece = 0;
-    float angle_rad = 0;
-    double length_m = 0;
-};
-struct OverlapRow {
-    std::vector<SeenLength> seen;  // ascending
-    SeenTotal total;
-};
-OverlapRow overlap_row(std::vector<SeenLength> seen);
-// The same bits as from two rows and their pieces.
-double overlap(OverlapRatio ratio, const OverlapRow& a, const OverlapRow& b);
-
-// A pair of candidates that overlap at all. from < to.
-struct OverlapPair {
-    std::int32_t from = 0;
-    std::int32_t to = 0;
-    double overlap = 0;
+    bool enough(double overlap) const { return overlap > 0 && overlap >= threshold; }
 };
 
 }  // namespace vfplan

@@ -209,11 +209,11 @@ void one_packet(const Expansion& expansion, const std::vector<Wall>& walls, cons
         }
     };
 
-    const Triangle& start = expansion.mesh.triangles[at(triangle)];
+    const Triangle& start = expansion.mesh.triangles[idx(triangle)];
     const auto all = static_cast<std::uint32_t>((1U << count) - 1);
     for (std::size_t i = 3; i-- > 0;) {
-        const Vec2d& r = expansion.mesh.vertices[at(start.vertex[(i + 1) % 3])];
-        const Vec2d& l = expansion.mesh.vertices[at(start.vertex[(i + 2) % 3])];
+        const Vec2d& r = expansion.mesh.vertices[idx(start.vertex[(i + 1) % 3])];
+        const Vec2d& l = expansion.mesh.vertices[idx(start.vertex[(i + 2) % 3])];
         push({expansion.behind(triangle, i), all, r.x() - mid_x, r.y() - mid_y, l.x() - mid_x,
               l.y() - mid_y},
              hn::Sub(hn::Set(d, r.x()), ex), hn::Sub(hn::Set(d, r.y()), ey),
@@ -231,7 +231,7 @@ void one_packet(const Expansion& expansion, const std::vector<Wall>& walls, cons
         while (true) {
             if (is_wall(cone.behind)) {
                 ++counts.walls;
-                meet(walls[at(wall_of(cone.behind))], m, rx, ry, lx, ly);
+                meet(walls[idx(wall_of(cone.behind))], m, rx, ry, lx, ly);
                 break;
             }
             if (cone.behind == behind_hull || out_of_reach(cone)) {
@@ -239,7 +239,7 @@ void one_packet(const Expansion& expansion, const std::vector<Wall>& walls, cons
                 break;
             }
             ++counts.steps;
-            const Crossing& c = expansion.crossings[at(cone.behind)];
+            const Crossing& c = expansion.crossings[idx(cone.behind)];
             const V ax = hn::Sub(hn::Set(d, c.apex_x), ex);
             const V ay = hn::Sub(hn::Set(d, c.apex_y), ey);
             const M opens_right = hn::And(m, hn::Gt(cross_lanes(rx, ry, ax, ay), zero));

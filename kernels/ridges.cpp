@@ -50,11 +50,11 @@ public:
                 }
             }
         };
-        look(at(below_[i]), -grid_.nx);
+        look(idx(below_[i]), -grid_.nx);
         look(i > 0 ? i - 1 : 0, 0);
-        look(at(above_[i]), grid_.nx);
+        look(idx(above_[i]), grid_.nx);
         for (const std::int64_t j : found) {
-            if (j >= 0) f(at(j));
+            if (j >= 0) f(idx(j));
         }
     }
 
@@ -180,7 +180,7 @@ RidgeGraph ridge_graph(const Grid& grid, const SkeletonCells& skeleton) {
 std::int64_t prune_spurs(const Grid& grid, SkeletonCells& skeleton) {
     const auto index_of = [&](std::int64_t cell) {
         const auto found = std::lower_bound(skeleton.cell.begin(), skeleton.cell.end(), cell);
-        return at(found - skeleton.cell.begin());
+        return idx(found - skeleton.cell.begin());
     };
     std::int64_t pruned = 0;
     while (true) {
@@ -191,8 +191,8 @@ std::int64_t prune_spurs(const Grid& grid, SkeletonCells& skeleton) {
             const bool spur = (ridge.joint[0] < 0) != (ridge.joint[1] < 0);
             if (!spur) continue;
             const std::int32_t joint = std::max(ridge.joint[0], ridge.joint[1]);
-            const double clearance =
-                std::sqrt(static_cast<double>(skeleton.squared[index_of(graph.joints[at(joint)])]));
+            const double clearance = std::sqrt(
+                static_cast<double>(skeleton.squared[index_of(graph.joints[idx(joint)])]));
             const double length = arc_cells(grid, ridge.cells, 0, ridge.cells.size() - 1) + 1;
             if (length >= clearance) continue;
             for (const std::int64_t c : ridge.cells) gone[index_of(c)] = 1;

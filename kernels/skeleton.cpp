@@ -6,6 +6,8 @@
 #include <queue>
 #include <tuple>
 
+#include "kernels/index.h"
+
 namespace vfplan {
 namespace {
 
@@ -76,7 +78,7 @@ public:
     // With `corners`, the corners of blocks are kept as ends.
     void run(bool corners) {
         for (std::int64_t cell = 0; cell < grid_.size(); ++cell) {
-            if (state_[index(cell)] != Cell::present) continue;
+            if (state_[idx(cell)] != Cell::present) continue;
             if (around(grid_, state_, cell).present != 255) wait(cell);
         }
         while (!later_.empty()) {
@@ -92,7 +94,6 @@ public:
     }
 
 private:
-    static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
     // Squared distance above, cell below: both fit 32 bits (a part has fewer than 2^32 cells).
     static std::int64_t level_of(std::uint64_t entry) {
         return static_cast<std::int64_t>(entry >> 32);
@@ -107,9 +108,9 @@ private:
     }
 
     void wait(std::int64_t cell) {
-        if (waiting_[index(cell)] != 0) return;
-        waiting_[index(cell)] = 1;
-        const std::int64_t level = distance_.squared[index(cell)];
+        if (waiting_[idx(cell)] != 0) return;
+        waiting_[idx(cell)] = 1;
+        const std::int64_t level = distance_.squared[idx(cell)];
         if (level <= level_) {
             turn_[turn_of(cell)].push_back(cell);
         } else {
@@ -124,11 +125,11 @@ private:
             now.swap(turn_[t]);
             idle = now.empty() ? idle + 1 : 0;
             for (const std::int64_t cell : now) {
-                waiting_[index(cell)] = 0;
+                waiting_[idx(cell)] = 0;
                 const Around a = around(grid_, state_, cell);
                 const Fate fate = fate_of(cell, a, corners);
                 if (fate == Fate::stays) continue;
-                state_[index(cell)] = fate == Fate::goes ? Cell::absent : Cell::unknown;
+                state_[idx(cell)] = fate == Fate::goes ? Cell::absent : Cell::unknown;
                 for (std::size_t k = 0; k < 8; ++k) {
                     if ((a.present >> k & 1U) == 0) continue;
                     wait(cell + around_dx[k] + around_dy[k] * std::int64_t{grid_.nx});

@@ -1,15 +1,22 @@
 // Walls and the site they enclose (SPEC section 1), the common input of every kernel.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "kernels/names.h"
 #include "kernels/vec.h"
 
 namespace vfplan {
 
 enum class WallClass : std::uint8_t { wall = 0, window = 1, door = 2, obstacle = 3 };
+template <>
+struct Names<WallClass> {
+    static constexpr std::array<std::string_view, 4> all = {"wall", "window", "door", "obstacle"};
+};
 
 // The two faces of a wall a -> b.
 enum Side : std::uint8_t { left = 0, right = 1 };

@@ -1,8 +1,9 @@
 # Script: cmake -D root=<source tree> -D files=<list file> -P check_includes.cmake
 # Fails, naming every offending line, when
 #  (1) a file includes a folder above its own: kernels <- io <- engine
-#  (2) a heavy library is included elsewhere than through its door (doors.txt)
-#  (3) a kernel includes what kernels must not know: threads, files, clocks, logs
+#  (2) a file includes a room above or beside its own (rooms.txt)
+#  (3) a heavy library is included elsewhere than through its door (doors.txt)
+#  (4) a kernel includes what kernels must not know: threads, files, clocks, logs
 # `files` holds one path a line, relative to root.
 cmake_minimum_required(VERSION 3.25)
 
@@ -26,10 +27,27 @@ foreach(line IN LISTS door_lines)
     string(REPLACE " " ";" allowed_${name} "${allowed_${name}}")
 endforeach()
 
+# level_ROOM: the line of rooms.txt that it stands in, from 1.
+set(level 0)
+file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/rooms.txt room_lines REGEX "^[^#]")
+foreach(line IN LISTS room_lines)
+    math(EXPR level "${level} + 1")
+    string(REGEX REPLACE "#.*" "" line "${line}")
+    string(REGEX MATCHALL "[^ ]+" rooms "${line}")
+    foreach(room IN LISTS rooms)
+        set(level_${room} ${level})
+    endforeach()
+endforeach()
+
 set(problems "")
 file(STRINGS ${files} paths)
 foreach(path IN LISTS paths)
     string(REGEX MATCH "^[^/]+" folder ${path})
+    get_filename_component(room ${path} DIRECTORY)
+    if(folder MATCHES "^(io|engine)$" AND NOT DEFINED level_${room})
+        string(APPEND problems "  ${path}: ${room} is no room of configs/cmake/rooms.txt\n")
+        continue()
+    endif()
     file(STRINGS ${root}/${path} lines REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]")
     foreach(line IN LISTS lines)
         if(NOT line MATCHES "include[ \t]*[<\"]([^>\"]+)[>\"]")
@@ -39,6 +57,14 @@ foreach(path IN LISTS paths)
         if(DEFINED forbidden_in_${folder} AND included MATCHES "${forbidden_in_${folder}}")
             string(APPEND problems "  ${path} includes ${included}: ${folder}/ may not look upwards "
                 "(kernels <- io <- engine)\n")
+        endif()
+        get_filename_component(other "${included}" DIRECTORY)
+        if(DEFINED level_${room} AND DEFINED level_${other} AND NOT room STREQUAL other
+           AND NOT level_${other} LESS level_${room})
+            string(APPEND problems "  ${path} includes ${included}: ${room} may not know ${other} "
+                "(configs/cmake/rooms.txt)\n")
+        elseif(DEFINED level_${room} AND included MATCHES "^\\.\\.?/")
+            string(APPEND problems "  ${path} includes ${included}: paths begin at the root\n")
         endif()
         if(folder STREQUAL kernels AND included MATCHES "${unknown_to_kernels}")
             string(APPEND problems "  ${path} includes ${included}: kernels know no threads, files, "

@@ -1,12 +1,14 @@
 # Sources are found by folder, so that adding a file needs no edit here.
 
-# vfplan_sources(<out> <glob>...): matching files, looked for again at every build.
+# vfplan_sources(<out> <glob>...): matching files in the folders and below, looked for again at every
+# build.
 function(vfplan_sources out)
-    file(GLOB found CONFIGURE_DEPENDS ${ARGN})
+    file(GLOB_RECURSE found CONFIGURE_DEPENDS ${ARGN})
     set(${out} ${found} PARENT_SCOPE)
 endfunction()
 
-# vfplan_library(<name> <folder> [EXCLUDE <file>...]): static library of the folder's .cpp files.
+# vfplan_library(<name> <folder> [EXCLUDE <file>...]): static library of the .cpp files of a folder and
+# its rooms.
 function(vfplan_library name folder)
     cmake_parse_arguments(arg "" "" "EXCLUDE" ${ARGN})
     set(dir ${PROJECT_SOURCE_DIR}/${folder})

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <fstream>
 
-#include "io/tables.h"
+#include "io/tables/coverage_file.h"
+#include "io/tables/field_file.h"
+#include "io/tables/plan_file.h"
 #include "program.h"
 
 namespace vfplan::test {

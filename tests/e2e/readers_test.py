@@ -97,7 +97,7 @@ class Readers(unittest.TestCase):
         keys = set()
         for file in (run.field, run.coverage, run.plan):
             self.assertEqual(file.attrs["complete"], 1)
-            self.assertEqual(file.attrs["format_version"], 2)
+            self.assertEqual(file.attrs["format_version"], 3)
             self.assertTrue(text(file.attrs["title"]))
             keys.add(text(file.attrs["key"]))
         self.assertEqual(len(keys), 1)
@@ -137,9 +137,9 @@ class Readers(unittest.TestCase):
         c = run.coverage["candidates"]
         vf, cell = run.field["vf"][:], c["cell"][:]
         on = cell >= 0
-        # Off the cells' centres there are links only.
+        # Off the cells' centres there are connectors only.
         kinds = dict(pair.split(" ") for pair in text(c["kind"].attrs["meaning"]).split(", "))
-        self.assertEqual({kinds[str(k)] for k in c["kind"][:][~on]} - {"link"}, set())
+        self.assertEqual({kinds[str(k)] for k in c["kind"][:][~on]} - {"connector"}, set())
         row, column = np.divmod(cell[on], vf.shape[1])
         np.testing.assert_array_equal(vf[row, column], c["vf"][:][on])
         # Their places are the cells' centres: in the site frame, the field in the input's.
@@ -171,13 +171,13 @@ class Readers(unittest.TestCase):
         self.assertGreater(group["angle_rad"][:].min(), 0)
 
     @on_every_run
-    def test_reach_and_lengths(self, run):
+    def test_status_and_lengths(self, run):
         s = run.summary
         seen = np.asarray((run.table > 0).sum(axis=0)).ravel() > 0
-        reach = run.coverage["pieces/reach"][:]
-        np.testing.assert_array_equal(seen, reach == 0)
+        status = run.coverage["pieces/status"][:]
+        np.testing.assert_array_equal(seen, status == 0)
         self.assertAlmostEqual(run.length.sum(), s["length_m"], places=6)
-        coverable = reach != 1
+        coverable = status != 1
         self.assertEqual(coverable.sum(), s["pieces_coverable"])
         self.assertAlmostEqual(run.length[coverable].sum(), s["length_coverable_m"], places=6)
         self.assertEqual(len(run.coverage["walls/x0"]), s["site"]["walls"])

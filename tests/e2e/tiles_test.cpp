@@ -1,7 +1,9 @@
 // Tiles are portions of work only: any side, any number of threads, one result.
 #include <cmath>
 
-#include "io/tables.h"
+#include "io/tables/coverage_file.h"
+#include "io/tables/field_file.h"
+#include "io/tables/plan_file.h"
 #include "program.h"
 
 namespace vfplan::test {

@@ -3,7 +3,10 @@
 #include <fstream>
 #include <functional>
 
-#include "io/tables.h"
+#include "io/tables/coverage_file.h"
+#include "io/tables/field_file.h"
+#include "io/tables/field_tiles.h"
+#include "io/tables/plan_file.h"
 #include "program.h"
 
 namespace vfplan::test {
@@ -131,21 +134,12 @@ TEST_F(Verify, NoWhenTheFieldIsAnother) {
         std::sort(tiles.begin(), tiles.end());
         ASSERT_EQ(tiles.size(), static_cast<std::size_t>(layout.tiles()));
         for (std::size_t t = 0; t < tiles.size(); ++t) {
-            std::vector<float> vf;
-            h5::Dims shape;
-            std::string key;
-            {
-                const h5::Reader in(tiles[t]);
-                vf = in.read<float>("vf");
-                shape = in.dims("vf");
-                key = in.text("/", "key");
-            }
-            for (float& v : vf) v *= 0.9F;
-            h5::Writer out(tiles[t]);
-            out.attribute("/", "key", key);
-            out.write("vf", vf, shape);
-            out.attribute("/", "complete", std::int64_t{1});
-            out.close();
+            FieldTile tile;
+            tile.window = layout.tile_window(static_cast<std::int64_t>(t));
+            tile.vf_rad = field.read(tile.window);
+            for (float& v : tile.vf_rad) v *= 0.9F;
+            tile.closed.resize(tile.vf_rad.size(), 0);
+            write_field_tile(tiles[t], field.info().key, tile);
         }
         write_field_index(dir / "field.h5", field.info(), tiles);
     }));

@@ -24,13 +24,13 @@ struct World {
         grid.cell_m = cell_m;
         grid.nx = static_cast<std::int32_t>(box.size().x() / cell_m) - 1;
         grid.ny = static_cast<std::int32_t>(box.size().y() / cell_m) - 1;
-        standable.assign(at(grid.size()), 1);
+        standable.assign(idx(grid.size()), 1);
         for (std::int64_t c = 0; c < grid.size(); ++c) {
             for (const Wall& wall : walls) {
                 const Vec2d e = wall.b - wall.a;
                 const Vec2d p = grid.centre(c) - wall.a;
                 const double t = std::clamp(p.dot(e) / e.squaredNorm(), 0.0, 1.0);
-                if ((p - e * t).norm() < 1e-3) standable[at(c)] = 0;  // on a wall
+                if ((p - e * t).norm() < 1e-3) standable[idx(c)] = 0;  // on a wall
             }
         }
     }
@@ -38,7 +38,7 @@ struct World {
 
 Raster<float> field(const ViewKernel& kernel, const Scanner& scanner, const World& w,
                     std::int32_t step = 1 << 20) {
-    Raster<float> vf(at(w.grid.size()), -1.0F);
+    Raster<float> vf(idx(w.grid.size()), -1.0F);
     FieldCounts counts;
     for (std::int32_t y = 0; y < w.grid.ny; y += step) {
         for (std::int32_t x = 0; x < w.grid.nx; x += step) {
@@ -77,13 +77,13 @@ TEST(ExactField, SumsWhatOneEyeSees) {
                 const Raster<float> vf = field(scene, s, w);
                 double total = 0;
                 for (std::int64_t c = 0; c < w.grid.size(); ++c) {
-                    if (w.standable[at(c)] == 0) {
-                        ASSERT_EQ(vf[at(c)], -1.0F);
+                    if (w.standable[idx(c)] == 0) {
+                        ASSERT_EQ(vf[idx(c)], -1.0F);
                         continue;
                     }
                     const double want =
                         view_angle_rad(test::look(scene, w.walls, s, w.grid.centre(c)));
-                    ASSERT_NEAR(static_cast<double>(vf[at(c)]), want, 6e-7)
+                    ASSERT_NEAR(static_cast<double>(vf[idx(c)]), want, 6e-7)
                         << w.grid.centre(c).transpose() << " range " << s.range_max_m;
                     total += want;
                 }
@@ -101,9 +101,9 @@ TEST(ExactField, ClosedRoomIsAWholeTurnAndOpenGroundNothing) {
         const Vec2d eye = room.grid.centre(c);
         const bool inside = eye.x() > 0 && eye.x() < 10 && eye.y() > 0 && eye.y() < 8;
         if (inside) {
-            EXPECT_EQ(vf[at(c)], static_cast<float>(2 * pi));
+            EXPECT_EQ(vf[idx(c)], static_cast<float>(2 * pi));
         } else {
-            EXPECT_LT(vf[at(c)], static_cast<float>(pi));
+            EXPECT_LT(vf[idx(c)], static_cast<float>(pi));
         }
     }
     const ExactScene near(room.walls, room.box, 2);
@@ -195,7 +195,7 @@ TEST(EmbreeField, FindsWhatTestingEveryWallFinds) {
                     std::vector<std::int64_t> cells;
                     for (std::int32_t iy = y; iy < std::min(y + 4, w.grid.ny); ++iy) {
                         for (std::int32_t ix = x; ix < std::min(x + 4, w.grid.nx); ++ix) {
-                            if (w.standable[at(w.grid.id(ix, iy))] == 0) continue;
+                            if (w.standable[idx(w.grid.id(ix, iy))] == 0) continue;
                             eyes[cells.size()] = w.grid.centre(w.grid.id(ix, iy));
                             cells.push_back(w.grid.id(ix, iy));
                         }
@@ -205,7 +205,7 @@ TEST(EmbreeField, FindsWhatTestingEveryWallFinds) {
                               eyes[0]);
                     block.angles(eyes, cells.size(), want, counts);
                     for (std::size_t i = 0; i < cells.size(); ++i) {
-                        ASSERT_EQ(vf[at(cells[i])], static_cast<float>(want[i]));
+                        ASSERT_EQ(vf[idx(cells[i])], static_cast<float>(want[i]));
                     }
                 }
             }

@@ -7,7 +7,7 @@
 
 #include "bench/peers/cgal_expansion.h"
 #include "bench/peers/rotational_sweep.h"
-#include "io/site_reader.h"
+#include "io/site/site_reader.h"
 #include "kernels/free_cells.h"
 #include "tests/data.h"
 #include "tests/kernels/scenes.h"

@@ -5,7 +5,7 @@
 
 #include <thread>
 
-#include "io/site_reader.h"
+#include "io/site/site_reader.h"
 #include "kernels/error.h"
 #include "tests/kernels/scenes.h"
 

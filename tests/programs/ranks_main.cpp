@@ -11,9 +11,9 @@
 #include <fstream>
 #include <string>
 
-#include "engine/ending.h"
-#include "engine/ranks.h"
-#include "engine/stop.h"
+#include "engine/runtime/ending.h"
+#include "engine/runtime/ranks.h"
+#include "engine/runtime/stop.h"
 #include "kernels/error.h"
 
 namespace {

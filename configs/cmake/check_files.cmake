@@ -1,0 +1,50 @@
+# Script: cmake -D root=<source tree> -D files=<list file> -P check_files.cmake
+# Fails, naming every file, when
+#  (1) a .cpp of kernels/, io/ or engine/ has no header of its name (main.cpp and the doors to what is
+#      not there, no_*.cpp, need none)
+#  (2) a room holds more than 16 modules
+#  (3) a source has more than 400 lines and its first 12 do not say why: "Long because ..."
+# `files` holds one path a line, relative to root.
+cmake_minimum_required(VERSION 3.25)
+
+set(modules_most 16)
+set(lines_most 400)
+set(problems "")
+set(rooms)
+file(STRINGS ${files} paths)
+foreach(path IN LISTS paths)
+    if(path MATCHES "^(kernels|io|engine)/.*\\.cpp$")
+        string(REGEX REPLACE "\\.cpp$" ".h" header ${path})
+        if(NOT EXISTS ${root}/${header} AND NOT path MATCHES "/(main|no_[a-z_]+)\\.cpp$")
+            string(APPEND problems "  ${path}: no header ${header} says what it does\n")
+        endif()
+    endif()
+    if(path MATCHES "^((io|engine)/[a-z]+)/([a-z0-9_]+)\\.(h|cpp)$")
+        set(room ${CMAKE_MATCH_1})
+        string(MAKE_C_IDENTIFIER ${room} id)
+        list(APPEND rooms ${room})
+        list(APPEND modules_${id} ${CMAKE_MATCH_3})
+    endif()
+    file(STRINGS ${root}/${path} lines REGEX "^")
+    list(LENGTH lines count)
+    if(count GREATER lines_most)
+        file(STRINGS ${root}/${path} head LIMIT_COUNT 12)
+        if(NOT head MATCHES "Long because ")
+            string(APPEND problems "  ${path}: ${count} lines; cut it, or say in its head why it is "
+                "long: \"Long because ...\"\n")
+        endif()
+    endif()
+endforeach()
+list(REMOVE_DUPLICATES rooms)
+foreach(room IN LISTS rooms)
+    string(MAKE_C_IDENTIFIER ${room} id)
+    list(REMOVE_DUPLICATES modules_${id})
+    list(LENGTH modules_${id} count)
+    if(count GREATER modules_most)
+        string(APPEND problems "  ${room}: ${count} modules, and a room holds ${modules_most} at most\n")
+    endif()
+endforeach()
+
+if(problems)
+    message(FATAL_ERROR "Rules of files broken:\n${problems}")
+endif()

@@ -1,0 +1,239 @@
+#include "engine/cli/cli.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+#include "engine/cli/submit.h"
+#include "engine/config/parameters.h"
+#include "engine/generate/generate.h"
+#include "engine/job/pipeline.h"
+#include "engine/job/verify.h"
+#include "engine/runtime/ending.h"
+#include "engine/runtime/launch.h"
+#include "engine/runtime/ranks.h"
+#include "engine/runtime/stop.h"
+#include "io/files.h"
+#include "kernels/error.h"
+#include "kernels/isa.h"
+#include "vfplan_version.h"
+
+namespace vfplan {
+namespace {
+
+constexpr const char* run_help =
+    R"(Plans static-LiDAR stations for a site. Your own GeoJSON in five minutes:
+
+  1. Write job.toml:        preset = "outdoor"        # or "indoor"
+                            [site]
+                            input = "my_town.geojson" # metres; polygons are buildings
+                            [field]
+                            cell_m = 2                # indoor: 0.05
+  2. vfplan run job.toml --out my_town
+  3. Look at my_town/map.png; stations are in my_town/stations.csv.
+
+Longitudes and latitudes: add crs = "utm" under [site]. How long a large site will take: --dry-run.
+All parameters: docs/parameters.md or vfplan parameters; any of them: --set scanner.range_max_m=40)";
+
+constexpr const char* exit_codes =
+    "Exit codes: 0 done; 1 verify said no; 2 usage or configuration; 3 input data; 4 reading or "
+    "writing; 75 stopped early, resumable.\n"
+    "VFPLAN_ISA=sse2|sse4.2|avx|avx2|avx512 holds the kernels to an instruction set.";
+
+// Options that several commands share.
+struct Shared {
+    std::string job;
+    std::string dir;
+    std::string out;
+    std::vector<std::string> sets;
+    int threads = 0;
+    bool quiet = false;
+    bool fresh = false;
+    bool dry_run = false;
+};
+
+void add_sets(CLI::App& app, Shared& s, const char* which) {
+    app.add_option("--set", s.sets, which)->type_name("KEY=VALUE")->take_all()->expected(1);
+}
+
+void add_common(CLI::App& app, Shared& s) {
+    app.add_option("--threads", s.threads, "Threads; default: what the machine grants")
+        ->check(CLI::Range(1, 4096));
+    app.add_flag("-q,--quiet", s.quiet, "No progress, no summary");
+}
+
+void add_job_and_out(CLI::App& app, Shared& s) {
+    app.add_option("JOB", s.job, "Job file (TOML); configs/ has examples")->required();
+    app.add_option("--out", s.out, "Run directory; default: the job file's name without .toml");
+    add_sets(app, s, "Replaces a parameter of the job file; may be repeated");
+}
+
+void add_job(CLI::App& app, Shared& s) {
+    add_job_and_out(app, s);
+    app.add_flag("--fresh", s.fresh, "Make everything again; default: go on where a run stopped");
+    app.add_flag("--dry-run", s.dry_run,
+                 "Check the job and the site, print cells, memory and disk");
+    add_common(app, s);
+}
+
+std::filesystem::path out_of(const Shared& s) {
+    if (!s.out.empty()) return s.out;
+    std::filesystem::path out = std::filesystem::path(s.job).stem();
+    if (out.extension().empty() && std::filesystem::path(s.job) == out) out += ".run";
+    return out;
+}
+
+int run_or_precompute(const Shared& s, bool plan, const Ranks& ranks) {
+    Progress progress(s.quiet, !ranks.leader());
+    const Config config = read_config(s.job, s.sets);
+    JobOptions options;
+    options.out = out_of(s);
+    options.threads = s.threads;
+    options.fresh = s.fresh;
+    options.dry_run = s.dry_run;
+    options.plan = plan;
+    if (const std::string warning = binding_warning(); !warning.empty()) {
+        progress.warn(warning);
+    }
+    const std::string text = run_job(config, options, ranks, progress);
+    if (!s.quiet && ranks.leader()) fmt::print("{}", text);
+    return 0;
+}
+
+int generate(const GenerateOptions& options, const std::string& out) {
+    const GenerateReport report = generate_site(options);
+    if (out.empty() || out == "-") {
+        fmt::print("{}", report.geojson);
+        fmt::print(stderr, "{}", report.summary);
+        return 0;
+    }
+    const std::filesystem::path file(out);
+    if (file.has_parent_path()) {
+        std::error_code error;
+        std::filesystem::create_directories(file.parent_path(), error);
+    }
+    write_text(file, report.geojson);
+    fmt::print("{}", report.summary);
+    return 0;
+}
+
+void add_submit(CLI::App& app, Shared& s, SubmitOptions& o, bool& print) {
+    add_job_and_out(app, s);
+    app.add_option("--nodes", o.nodes, "Machines")->check(CLI::Range(1, 100000));
+    app.add_option("--ranks-per-node", o.ranks_per_node,
+                   "Processes on each; default: one per socket that Slurm knows of")
+        ->check(CLI::Range(1, 1024));
+    app.add_option("--threads", s.threads,
+                   "Threads of each process; default: all processors of nodes that are taken whole")
+        ->check(CLI::Range(1, 4096));
+    app.add_option("--time", o.time, "Time limit as Slurm writes it: 30, 12:00:00, 2-0");
+    app.add_option("--account", o.account, "Slurm account");
+    app.add_option("--partition", o.partition, "Slurm partition");
+    app.add_flag("--print", print, "Print the batch script, submit nothing");
+}
+
+int submit_job(const Shared& s, SubmitOptions o, bool print) {
+    o.job = s.job;
+    o.out = out_of(s);
+    o.sets = s.sets;
+    o.threads = s.threads;
+    o.program = std::filesystem::read_symlink("/proc/self/exe");
+    o.folder = std::filesystem::current_path();
+    fmt::print("{}", submit(o, print));
+    return 0;
+}
+
+int verify(const Shared& s) {
+    Progress progress(true);
+    const VerifyResult r = verify_run(s.dir, s.threads, progress);
+    if (!s.quiet) fmt::print("{}", r.text);
+    fmt::print("{}\n", r.good ? "yes: the plan holds" : "NO: the plan does not hold");
+    return r.good ? 0 : 1;
+}
+
+int dispatch(int argc, char** argv, const Ranks& ranks) {
+    if (const char* isa = std::getenv("VFPLAN_ISA"); isa != nullptr && *isa != '\0') {
+        limit_isa(isa);
+    }
+    CLI::App app{
+        "Plans connected networks of static-LiDAR stations from city maps and floor "
+        "plans.",
+        "vfplan"};
+    app.require_subcommand(1);
+    app.set_version_flag("--version", fmt::format("vfplan {} ({}, {}, {})", version, version_git,
+                                                  build_type, Ranks::built_with()));
+    app.footer(exit_codes);
+    Shared s;
+    GenerateOptions site;
+    std::string site_out;
+
+    const bool about_run = argc > 1 && std::string_view(argv[1]) == "run";
+    CLI::App* run = app.add_subcommand(
+        "run", about_run ? run_help : "The whole job: site to stations; start with run --help");
+    add_job(*run, s);
+    run->footer(exit_codes);
+    CLI::App* precompute = app.add_subcommand(
+        "precompute", "Field and coverage tables only; plan DIR or run goes on from there");
+    add_job(*precompute, s);
+    CLI::App* plan = app.add_subcommand(
+        "plan", "Plans again from a run directory's tables alone, without geometry");
+    plan->add_option("DIR", s.dir, "Run directory")->required();
+    add_sets(*plan, s, "Replaces a parameter of plan, overlap or output");
+    add_common(*plan, s);
+    CLI::App* check = app.add_subcommand(
+        "verify", "Looks again from every station with the exact kernel; says yes or no");
+    check->add_option("DIR", s.dir, "Run directory")->required();
+    add_common(*check, s);
+    CLI::App* make = app.add_subcommand("generate", "Writes a synthetic site as GeoJSON");
+    make->add_option("KIND", site.kind, "town | city | flat")->required();
+    make->add_option("--seed", site.seed, "Another seed, another site")->capture_default_str();
+    make->add_option("--size-km", site.size_km, "city: side of the square")->capture_default_str();
+    make->add_option("--rooms", site.rooms, "flat: number of rooms")->capture_default_str();
+    make->add_option("--out", site_out, "GeoJSON file; default: standard output");
+    SubmitOptions slurm;
+    bool print = false;
+    CLI::App* queue = app.add_subcommand(
+        "submit",
+        "Hands the job to Slurm, on one machine or several; takes it up after preemption");
+    add_submit(*queue, s, slurm, print);
+    queue->footer(exit_codes);
+    CLI::App* list = app.add_subcommand("parameters", "Prints all parameters as Markdown");
+
+    if (argc > 1 && argv[1][0] != '-' &&
+        app.get_subcommands([&](CLI::App* a) { return a->get_name() == argv[1]; }).empty()) {
+        throw UsageError(fmt::format("{}: no such command; see vfplan --help", argv[1]));
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& e) {
+        return ranks.leader() ? app.exit(e) : 0;  // --help, --version
+    } catch (const CLI::ParseError& e) {
+        throw UsageError(fmt::format("{}; see vfplan --help", e.what()));
+    }
+    if (run->parsed()) return run_or_precompute(s, true, ranks);
+    if (precompute->parsed()) return run_or_precompute(s, false, ranks);
+    if (!ranks.leader()) return 0;  // the other commands are for one process
+    if (check->parsed()) return verify(s);
+    if (make->parsed()) return generate(site, site_out);
+    if (queue->parsed()) return submit_job(s, slurm, print);
+    if (list->parsed()) {
+        fmt::print("{}", parameters_markdown());
+        return 0;
+    }
+    Progress progress(s.quiet);
+    const std::string text = plan_again(s.dir, s.sets, s.threads, progress);
+    if (!s.quiet) fmt::print("{}", text);
+    return 0;
+}
+
+}  // namespace
+
+int run_cli(int argc, char** argv) {
+    watch_signals();
+    return run_to_end([&](const Ranks& ranks) { return dispatch(argc, argv, ranks); });
+}
+
+}  // namespace vfplan

@@ -1,0 +1,70 @@
+// What the parts of a job are told: each gets what it needs of the configuration, none the whole.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "io/site/site_options.h"
+#include "kernels/names.h"
+#include "kernels/overlap.h"
+#include "kernels/scanner.h"
+#include "kernels/vec.h"
+#include "kernels/view_kernels.h"
+
+namespace vfplan {
+
+struct Config;
+
+// The site, its grid, and where on it stations may stand.
+struct GroundOptions {
+    std::filesystem::path input;
+    SiteOptions site;
+    std::filesystem::path forbidden;  // polygons where no station may stand; may be empty
+    std::vector<Vec2d> required;      // the user's points, in the input's coordinates
+    std::vector<Vec2d> existing;
+    double clearance_m = 0;
+    double cell_m = 0.25;
+    std::int64_t tile_cells = 1024;
+    double range_max_m = 75;
+    double partition_m = 1;
+};
+GroundOptions ground_options(const Config& config);
+
+// What views are made with.
+struct SceneOptions {
+    Scanner scanner;
+    KernelKind kernel = KernelKind::exact;  // of the field; other views are always exact
+    int rays = 0;                           // of embree
+    double visible_fraction = 0.5;
+    double partition_m = 1;
+};
+SceneOptions scene_options(const Config& config);
+
+// The way from a stored site to its tables.
+struct TableOptions {
+    SceneOptions scenes;
+    std::int64_t tile_cells = 1024;
+    double threshold_rad = 1;  // of the field, below which a cell carries no skeleton
+    OverlapRule overlap;
+    std::vector<Vec2d> required;  // the user's points, in the input's coordinates
+    std::vector<Vec2d> existing;
+};
+TableOptions table_options(const Config& config);
+
+enum class PlanMethod : std::uint8_t { greedy, refined };
+template <>
+struct Names<PlanMethod> {
+    static constexpr std::array<std::string_view, 2> all = {"greedy", "refined"};
+};
+
+struct PlanOptions {
+    PlanMethod method = PlanMethod::refined;
+    bool loops = true;
+    OverlapRule overlap;
+};
+PlanOptions plan_options(const Config& config);
+
+}  // namespace vfplan

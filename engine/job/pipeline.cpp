@@ -1,0 +1,156 @@
+#include "engine/job/pipeline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/config/parameters.h"
+#include "engine/job/claim.h"
+#include "engine/job/estimate.h"
+#include "engine/job/result_hash.h"
+#include "engine/job/run_dir.h"
+#include "engine/job/summary.h"
+#include "engine/plan/planning.h"
+#include "engine/tables/site.h"
+#include "engine/tables/tables.h"
+#include "io/exports/outputs.h"
+#include "io/files.h"
+#include "io/tables/plan_file.h"
+#include "kernels/error.h"
+
+namespace vfplan {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void write_json(const std::filesystem::path& file, const Json& json) {
+    write_text(file, json.dump(2) + "\n");
+}
+
+// From a site to its tables, on all ranks: field.h5 and coverage.h5, as far as they are missing.
+void tables_of(const RunDir& dir, const Config& config, const JobKeys& keys, const Threads& threads,
+               const Ranks& ranks, Progress& progress) {
+    ranks.lead([&] {
+        if (tables_complete(dir.path(), keys.tables, progress)) return;
+        dir.remove_plan();
+        make_site(ground_options(config), dir.path(), keys.tables, threads, progress);
+    });
+    if (std::filesystem::exists(dir.file("field.h5")) &&
+        std::filesystem::exists(dir.file("coverage.h5"))) {
+        progress.note("tables       of this job are complete in the folder and used as they are");
+        return;
+    }
+    make_tables(table_options(config), dir.path(), keys.tables, threads, ranks, progress);
+}
+
+// The files that are asked for; what is not does not stay from a plan before.
+void write_outputs(const RunDir& dir, const std::vector<std::string>& formats,
+                   const Results& results) {
+    for (const Output& o : outputs()) {
+        if (std::find(formats.begin(), formats.end(), o.format) != formats.end()) {
+            o.write(dir.file(o.file), results);
+        } else {
+            std::error_code ignored;
+            std::filesystem::remove(dir.file(o.file), ignored);
+        }
+    }
+}
+
+// From tables to a plan and all files of it, summary.json last of all.
+std::string plan_of(const RunDir& dir, const Config& config, const Threads& threads,
+                    Progress& progress) {
+    progress.stage("read");
+    const FieldFile field(dir.file("field.h5"));
+    const CoverageTables tables = read_coverage(dir.file("coverage.h5"));
+    const CoverageEntries entries(dir.file("coverage.h5"));
+    const PlanOptions options = plan_options(config);
+    // The rows are gone before files are written.
+    const Planned planned = plan_stations(plan_tables_of(tables, entries, options.overlap.ratio),
+                                          options, config.scanner.range_max_m, threads, progress);
+    progress.stage("files");
+    write_plan(dir.file("plan.h5"), {planned.plan, tables.key, options.overlap});
+    write_outputs(dir, config.output.formats,
+                  {field, tables, planned.plan, config.site.input.filename().string(),
+                   plan_line(planned), static_cast<int>(config.output.map_px)});
+    Json summary = summary_of_tables(field, tables);
+    summary.update(summary_of_plan(planned, tables));
+    summary["kernel"] = name_of(config.visibility.kernel);
+    summary["overlap"] = {{"ratio", name_of(config.overlap.ratio)},
+                          {"threshold", config.overlap.threshold}};
+    progress.stage("hash");
+    summary["result_sha256"] = result_hash(field, tables, entries, planned.plan);
+    progress.finish();
+    add_times(summary, progress);
+    write_json(dir.file("summary.json"), summary);
+    return plan_text(planned, tables, config);
+}
+
+// For precompute: what there is before a plan.
+std::string summary_before_plan(const RunDir& dir, const Config& config, Progress& progress) {
+    progress.stage("read");
+    const FieldFile field(dir.file("field.h5"));
+    const CoverageTables tables = read_coverage(dir.file("coverage.h5"));
+    Json summary = summary_of_tables(field, tables);
+    summary["candidates"] = tables.candidates.size();
+    summary["pieces"] = tables.pieces.size();
+    summary["kernel"] = name_of(config.visibility.kernel);
+    progress.finish();
+    add_times(summary, progress);
+    write_json(dir.file("summary.json"), summary);
+    return fmt::format("tables       {} candidates x {} pieces\n", tables.candidates.size(),
+                       tables.pieces.size());
+}
+
+}  // namespace
+
+std::string run_job(const Config& config, const JobOptions& options, const Ranks& ranks,
+                    Progress& progress) {
+    const Threads threads(options.threads);
+    const RunDir dir(options.out);
+    progress.stage("site");
+    const std::string input_sha256 = input_hash(config);
+    const JobKeys keys = job_keys(config, input_sha256);
+    std::string text;
+    if (options.dry_run) {
+        ranks.lead(
+            [&] { text = estimate_text(estimate(config, threads, progress), config, threads); });
+        return text;
+    }
+    run_in_folder(
+        dir, config, keys, options.fresh, ranks,
+        [&] { tables_of(dir, config, keys, threads, ranks, progress); },
+        [&] {
+            ranks.lead([&] {
+                dir.remove_work();
+                text = options.plan ? plan_of(dir, config, threads, progress)
+                                    : summary_before_plan(dir, config, progress);
+                write_text(dir.file("provenance.json"),
+                           provenance(config, input_sha256, threads.count(), ranks.count()));
+            });
+        });
+    if (!ranks.leader()) return "";
+    return text +
+           fmt::format("written to   {} in {:.1f} s\n", dir.path().string(), progress.wall_s());
+}
+
+std::string plan_again(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                       int thread_count, Progress& progress) {
+    Config any;
+    for (const std::string& s : overrides) {
+        const std::string key = s.substr(0, s.find('='));
+        for (const Parameter& p : parameters(any)) {
+            if (p.key() != key || p.stale != Stale::tables || p.section == "overlap") continue;
+            throw UsageError(
+                fmt::format("--set {}: plan works from finished tables, and {} changes "
+                            "those; use run with another --out",
+                            s, key));
+        }
+    }
+    const Threads threads(thread_count);
+    const RunDir dir(path);
+    const Config config = dir.config(overrides);
+    const FolderLock lock(dir, true);
+    return plan_of(dir, config, threads, progress);
+}
+
+}  // namespace vfplan

@@ -1,0 +1,23 @@
+// Where a graph would fall apart.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/plan/graph.h"
+
+namespace vfplan {
+
+// Bridges (edges whose loss parts a component), articulation nodes (the same of nodes), and which
+// nodes lie on a cycle. `lesser_part`: of what would remain of a node's component without the node,
+// the size of the second largest part; 0 where it stays whole.
+struct Cuts {
+    std::int64_t bridges = 0;
+    std::vector<std::uint8_t> articulation;
+    std::vector<std::uint8_t> on_cycle;
+    std::vector<std::int32_t> lesser_part;
+};
+// Time O(nodes + edges). Thread-safe.
+Cuts find_cuts(const Graph& graph);
+
+}  // namespace vfplan

@@ -1,0 +1,32 @@
+// The overlap graph: candidates joined where they overlap enough (equations 8 to 12).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/plan/graph.h"
+#include "engine/runtime/parallel.h"
+#include "kernels/overlap_rows.h"
+
+namespace vfplan {
+
+// The pairs of some consecutive rows with the rows after them: `count` of each row, one after
+// another, ascending.
+struct PairBlock {
+    std::vector<std::int32_t> count;
+    std::vector<std::int32_t> to;
+    std::vector<double> overlap;
+};
+
+// All pairs of rows that overlap enough, by blocks of consecutive rows, in parallel. `index` is of
+// the rows. The number of threads changes nothing.
+std::vector<PairBlock> overlap_pairs(const Threads& threads, const OverlapRows& rows,
+                                     const PieceIndex& index,
+                                     std::span<const double> piece_length_m,
+                                     const OverlapRule& rule);
+
+// The graph of such pairs, which it eats up block by block.
+Graph make_graph(std::vector<PairBlock> blocks);
+
+}  // namespace vfplan

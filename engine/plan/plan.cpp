@@ -1,0 +1,154 @@
+#include "engine/plan/plan.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "engine/plan/cuts.h"
+#include "engine/plan/greedy.h"
+#include "engine/plan/loops.h"
+#include "engine/plan/prune.h"
+#include "kernels/index.h"
+
+namespace vfplan {
+namespace {
+
+bool is_forced(const Candidate& c) {
+    return c.kind == CandidateKind::required || c.kind == CandidateKind::existing;
+}
+
+// Components of the candidates' graph, the one that can cover most length first.
+std::vector<std::vector<std::int32_t>> ranked_components(const PlanInput& in) {
+    const std::vector<std::int32_t> number = components(in.graph);
+    std::vector<std::vector<std::int32_t>> members;
+    for (std::int32_t c = 0; c < in.graph.size(); ++c) {
+        if (idx(number[idx(c)]) >= members.size()) members.emplace_back();
+        members[idx(number[idx(c)])].push_back(c);
+    }
+    std::vector<double> length(members.size(), 0);
+    std::vector<std::int32_t> last(in.piece_length_m.size(), -1);
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        for (const std::int32_t c : members[m]) {
+            for (const std::int32_t p : in.rows.row(c)) {
+                if (last[idx(p)] == static_cast<std::int32_t>(m)) continue;
+                last[idx(p)] = static_cast<std::int32_t>(m);
+                length[m] += in.piece_length_m[idx(p)];
+            }
+        }
+    }
+    std::vector<std::size_t> order(members.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return length[a] > length[b]; });
+    std::vector<std::vector<std::int32_t>> out;
+    for (const std::size_t m : order) out.push_back(std::move(members[m]));
+    return out;
+}
+
+void count_coverage(const PlanInput& in, const Chosen& chosen, std::vector<std::int32_t>& count) {
+    for (const std::int32_t c : chosen) {
+        for (const std::int32_t p : in.rows.row(c)) ++count[idx(p)];
+    }
+}
+
+// Stations on no cycle, in networks of more than one.
+std::int64_t stations_off_cycle(const PlanInput& in, const std::vector<Chosen>& networks) {
+    std::vector<std::int32_t> all;
+    for (const Chosen& chosen : networks) {
+        if (chosen.size() > 1) all.insert(all.end(), chosen.begin(), chosen.end());
+    }
+    std::sort(all.begin(), all.end());
+    const Cuts cuts = find_cuts(induced(in.graph, all));
+    return std::count(cuts.on_cycle.begin(), cuts.on_cycle.end(), 0);
+}
+
+void add_stations(const PlanInput& in, const std::vector<Chosen>& networks, Plan& plan) {
+    std::vector<std::uint8_t> covered(in.piece_length_m.size(), 0);
+    for (std::size_t network = 0; network < networks.size(); ++network) {
+        for (const std::int32_t c : networks[network]) {
+            Station station;
+            station.candidate = c;
+            station.network = static_cast<std::int32_t>(network);
+            station.order = static_cast<std::int32_t>(plan.stations.size());
+            for (const std::int32_t p : in.rows.row(c)) {
+                const double length = in.piece_length_m[idx(p)];
+                station.seen_length_m += length;
+                if (covered[idx(p)] == 0) station.new_length_m += length;
+                covered[idx(p)] = 1;
+                if (network == 0) plan.pieces[idx(p)] = PieceStatus::covered;
+            }
+            plan.stations.push_back(station);
+        }
+    }
+}
+
+void add_links(const PlanInput& in, Plan& plan) {
+    std::vector<std::int32_t> station_of(idx(in.graph.size()), -1);
+    for (std::size_t i = 0; i < plan.stations.size(); ++i) {
+        station_of[idx(plan.stations[i].candidate)] = static_cast<std::int32_t>(i);
+    }
+    for (std::size_t i = 0; i < plan.stations.size(); ++i) {
+        const std::int32_t c = plan.stations[i].candidate;
+        std::vector<Link> links;
+        in.graph.each(c, [&](std::int32_t n, double overlap_value) {
+            const std::int32_t other = station_of[idx(n)];
+            if (other <= static_cast<std::int32_t>(i)) return;
+            links.push_back({static_cast<std::int32_t>(i), other, overlap_value, {}});
+        });
+        std::sort(links.begin(), links.end(),
+                  [](const Link& p, const Link& q) { return p.to < q.to; });
+        plan.links.insert(plan.links.end(), links.begin(), links.end());
+    }
+}
+
+}  // namespace
+
+Plan make_plan(const PlanInput& in, const PlanOptions& options, PlanReport& report) {
+    report = {};
+    Plan plan;
+    plan.pieces = in.status;
+    std::vector<std::uint8_t> wanted(in.status.size());
+    for (std::size_t p = 0; p < wanted.size(); ++p) {
+        wanted[p] = in.status[p] == PieceStatus::covered ? 1 : 0;
+        if (wanted[p] != 0) plan.pieces[p] = PieceStatus::unreached;
+    }
+    Workspace work(in.graph);
+    std::vector<Chosen> networks;
+    std::vector<std::uint8_t> kept(idx(in.graph.size()), 0);
+    for (const std::vector<std::int32_t>& members : ranked_components(in)) {
+        std::vector<std::int32_t> forced;
+        bool adds = false;
+        for (const std::int32_t c : members) {
+            if (is_forced(in.candidates[idx(c)])) {
+                forced.push_back(c);
+                kept[idx(c)] = 1;
+            }
+            for (const std::int32_t p : in.rows.row(c)) adds = adds || wanted[idx(p)] != 0;
+        }
+        if (!adds && forced.empty()) continue;
+        networks.push_back(choose_greedily(in, members, forced, wanted, work));
+        report.greedy_stations += static_cast<std::int64_t>(networks.back().size());
+    }
+    if (options.method != PlanMethod::greedy) {
+        std::vector<std::int32_t> count(in.piece_length_m.size(), 0);
+        for (Chosen& chosen : networks) {
+            // With the networks before it, so that the main one never leans on a lesser one.
+            count_coverage(in, chosen, count);
+            const std::size_t before = chosen.size();
+            chosen = prune(in, chosen, kept, count, work);
+            report.pruned_stations += static_cast<std::int64_t>(before - chosen.size());
+        }
+    }
+    report.off_cycle_before = report.off_cycle_after = stations_off_cycle(in, networks);
+    for (const Chosen& chosen : networks) {
+        report.before_loops += static_cast<std::int64_t>(chosen.size());
+    }
+    if (options.loops) {
+        for (Chosen& chosen : networks) chosen = close_loops(in, chosen, work);
+        report.off_cycle_after = stations_off_cycle(in, networks);
+    }
+    add_stations(in, networks, plan);
+    add_links(in, plan);
+    return plan;
+}
+
+}  // namespace vfplan

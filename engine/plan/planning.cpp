@@ -1,0 +1,48 @@
+#include "engine/plan/planning.h"
+
+#include "engine/plan/bound.h"
+#include "engine/plan/overlap_graph.h"
+
+namespace vfplan {
+
+PlanTables plan_tables_of(const CoverageTables& t, const CoverageEntries& entries,
+                          OverlapRatio ratio) {
+    const std::int64_t all = t.entries();
+    return {t,
+            {t.begin, entries.pieces(0, all),
+             formula(ratio).by_angle ? entries.angles_rad(0, all) : std::vector<float>()},
+            piece_lengths_m(t.pieces),
+            [&entries](std::int64_t from, std::int64_t count) {
+                return entries.angles_rad(from, count);
+            }};
+}
+
+Planned plan_stations(const PlanTables& t, const PlanOptions& options, double range_max_m,
+                      const Threads& threads, Progress& progress) {
+    Planned out;
+    progress.stage("overlap");
+    std::vector<std::int32_t> bound_pieces;
+    std::vector<PairBlock> pairs;
+    {
+        // One index serves overlap and certificate and is gone when the plan begins.
+        const PieceIndex index =
+            index_of(t.rows, static_cast<std::int64_t>(t.piece_length_m.size()));
+        bound_pieces = independent_pieces(t.rows, index);
+        pairs = overlap_pairs(threads, t.rows, index, t.piece_length_m, options.overlap);
+    }
+    const Graph graph = make_graph(std::move(pairs));
+    const PlanInput input{t.coverage.candidates, t.rows, t.piece_length_m, t.coverage.status,
+                          graph};
+    progress.stage("plan");
+    out.plan = make_plan(input, options, out.report);
+    out.plan.bound_pieces = std::move(bound_pieces);
+    add_ratios(input, t.angles, out.plan);
+    progress.stage("metrics");
+    out.metrics = measure(threads, input, out.plan,
+                          PiecePlaces(t.coverage.walls, t.coverage.pieces), range_max_m);
+    progress.stage("join_thresholds");
+    out.joining = find_join_thresholds(threads, input, options.overlap, out.plan);
+    return out;
+}
+
+}  // namespace vfplan

@@ -1,0 +1,32 @@
+#include "engine/runtime/ending.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "engine/runtime/exit_code.h"
+#include "engine/runtime/ranks.h"
+
+namespace vfplan {
+
+int run_to_end(const std::function<int(const Ranks&)>& program) {
+    const auto tell = [](const Ending& ending) {
+        if (!ending.message.empty()) fmt::print(stderr, "vfplan: {}\n", ending.message);
+        return ending.code;
+    };
+    try {
+        const Ranks ranks;
+        try {
+            const int code = program(ranks);
+            ranks.wait();
+            return code;
+        } catch (...) {
+            const Ending ending = ending_of(std::current_exception());
+            return ranks.fail(ending.code) ? tell(ending) : ending.code;
+        }
+    } catch (...) {
+        return tell(ending_of(std::current_exception()));
+    }
+}
+
+}  // namespace vfplan

@@ -1,0 +1,18 @@
+// The coverage table (eq. 1, SPEC section 4).
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "engine/tables/shards.h"
+#include "io/tables/candidate_list.h"
+#include "io/tables/field_tiles.h"
+
+namespace vfplan {
+
+// Phase "coverage": shards/coverage-NUMBER.h5 with the rows of some thousand candidates each, the
+// same blocks whatever the tiles. Gives their files.
+std::vector<std::filesystem::path> make_coverage(const TableJob& job, const FieldTiles& field,
+                                                 const CandidateList& candidates);
+
+}  // namespace vfplan

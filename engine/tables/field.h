@@ -1,0 +1,13 @@
+// The visibility field (SPEC section 2).
+#pragma once
+
+#include "engine/tables/shards.h"
+#include "io/tables/field_tiles.h"
+#include "io/tables/site_store.h"
+
+namespace vfplan {
+
+// Phase "field": shards/field-SIDE-TILE.h5.
+FieldTiles make_field(const TableJob& job, const SiteStore& site);
+
+}  // namespace vfplan

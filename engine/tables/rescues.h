@@ -1,0 +1,28 @@
+// Candidates for walls that no ridge sees (SPEC section 4).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/tables/shards.h"
+#include "io/tables/candidate_list.h"
+#include "io/tables/candidate_shards.h"
+#include "io/tables/field_tiles.h"
+#include "io/tables/site_store.h"
+
+namespace vfplan {
+
+struct Rescued {
+    CandidateList candidates;  // all that there are by then
+    std::int64_t pieces = 0;   // for which a cell was found
+};
+
+// Phase "rescues": for every piece that neither joints nor splits cover the best cell that sees
+// enough of it, cells of the domain (VF at least `threshold_rad`) with the greatest VF first:
+// work/.../rescues-TILE.h5. Then the list of all candidates, of rescue cells the fewest in the
+// order of pieces: work/.../rescues.h5.
+Rescued make_rescues(const TableJob& job, const SiteStore& site, const FieldTiles& field,
+                     const FoundTiles& joints, const FoundTiles& splits,
+                     const std::vector<Candidate>& of_user, double threshold_rad);
+
+}  // namespace vfplan

@@ -1,0 +1,141 @@
+#include "engine/tables/scenes.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "kernels/index.h"
+
+namespace vfplan {
+
+Scene::Scene(const Layout& layout, std::int64_t patch, const PatchSite& site,
+             const SceneOptions& options)
+    : options_(options), origin_(layout.patch_origin(patch)) {
+    const Window window = layout.patch_window(patch);
+    grid_ = {
+        {0, 0}, layout.grid.cell_m, window.x_end - window.x_begin, window.y_end - window.y_begin};
+    walls_ = site.walls;
+    for (std::size_t w = 0; w < walls_.size(); ++w) {
+        const double length = walls_[w].length_m();  // in the site's frame, as everybody reckons it
+        for (Wall& wall = walls_[w]; Vec2d * end : {&wall.a, &wall.b}) *end -= origin_;
+        const auto on = [&](Side side) { return site.first[side][w] >= 0 ? site.count[w] : 0; };
+        pieces_.add_wall(walls_[w].length_m(), on(left), on(right));
+        for (const Side side : {left, right}) {
+            for (std::int32_t k = 0; k < on(side); ++k) {
+                site_piece_.push_back(site.first[side][w] + k);
+                length_m_.push_back(piece_begin_m(length, k + 1, on(side)) -
+                                    piece_begin_m(length, k, on(side)));
+            }
+        }
+    }
+    const double margin = eye_margin_m(options.partition_m);
+    const Box around{{-margin, -margin},
+                     grid_.cell_m * Vec2d(grid_.nx, grid_.ny) + Vec2d(margin, margin)};
+    const double reach = options.scanner.range_max_m;
+    exact_ = make_kernel(KernelKind::exact, walls_, around, reach, 0);
+    if (options.kernel != KernelKind::exact) {
+        of_field_ = make_kernel(options.kernel, walls_, around, reach, options.rays);
+    }
+}
+
+Scene::Look Scene::look(const Vec2d& eye) const {
+    const Vec2d here = eye - origin_;
+    View hits;
+    View seen;
+    exact_->first_hits(here, hits);
+    observe(walls_, options_.scanner, here, hits, seen);
+    Look out;
+    out.vf_rad = view_angle_rad(seen);
+    out.row = coverage_row(walls_, pieces_, here, seen, options_.visible_fraction);
+    out.length_m.reserve(out.row.size());
+    for (Seen& s : out.row) {
+        out.length_m.push_back(length_m_[idx(s.piece)]);
+        s.piece = site_piece(s.piece);
+    }
+    return out;
+}
+
+FieldCounts Scene::field(const Window& window, const Raster<std::uint8_t>& standable,
+                         Raster<float>& vf_rad) const {
+    const ViewKernel& kernel = of_field_ ? *of_field_ : *exact_;
+    return kernel.field(options_.scanner, grid_, window, standable, vf_rad);
+}
+
+PatchSite patch_site(const std::vector<Wall>& walls, const Pieces& pieces, const NearWalls& near,
+                     std::int64_t patch) {
+    PatchSite out;
+    for (std::int64_t i = near.begin[idx(patch)]; i < near.begin[idx(patch) + 1]; ++i) {
+        const std::int32_t w = near.wall[idx(i)];
+        out.number.push_back(w);
+        out.walls.push_back(walls[idx(w)]);
+        for (const Side side : {left, right}) {
+            out.first[side].push_back(pieces.count(w, side) > 0 ? pieces.first(w, side) : -1);
+        }
+        out.count.push_back(std::max(pieces.count(w, left), pieces.count(w, right)));
+    }
+    return out;
+}
+
+Scenes::Scenes(const Layout& layout, std::function<PatchSite(std::int64_t)> site,
+               const SceneOptions& options, int kept)
+    : layout_(layout), site_(std::move(site)), options_(options), kept_(idx(kept)) {}
+
+std::shared_ptr<const Scene> Scenes::of_patch(std::int64_t patch) {
+    std::shared_ptr<Entry> entry;
+    {
+        const std::lock_guard lock(guard_);
+        if (const auto found = entries_.find(patch); found != entries_.end()) {
+            latest_.splice(latest_.begin(), latest_, found->second.first);
+            entry = found->second.second;
+        } else {
+            latest_.push_front(patch);
+            entry = std::make_shared<Entry>();
+            entries_.emplace(patch, std::pair(latest_.begin(), entry));
+            if (entries_.size() > kept_) {  // who holds it may go on with it
+                entries_.erase(latest_.back());
+                latest_.pop_back();
+            }
+        }
+    }
+    const std::lock_guard lock(entry->making);
+    if (!entry->scene) {
+        Threads::apart([&] {
+            entry->scene = std::make_shared<const Scene>(layout_, patch, site_(patch), options_);
+        });
+    }
+    return entry->scene;
+}
+
+void Scenes::each(const Threads& threads, const std::vector<Vec2d>& points,
+                  const std::function<void(std::size_t, const Scene&)>& f) {
+    std::vector<std::int64_t> patch(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        patch[i] = layout_.patch_of(layout_.cell_at(points[i]));
+    }
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return patch[a] < patch[b]; });
+    threads.for_each(static_cast<std::int64_t>(order.size()), 16,
+                     [&](std::int64_t from, std::int64_t to) {
+                         std::shared_ptr<const Scene> scene;
+                         std::int64_t of = -1;
+                         for (std::int64_t i = from; i < to; ++i) {
+                             const std::size_t k = order[idx(i)];
+                             if (patch[k] != of) {
+                                 of = patch[k];
+                                 scene = of_patch(of);
+                             }
+                             f(k, *scene);
+                         }
+                     });
+}
+
+std::vector<OverlapRow> Scenes::overlap_rows(const Threads& threads,
+                                             const std::vector<Vec2d>& eyes) {
+    std::vector<OverlapRow> out(eyes.size());
+    each(threads, eyes,
+         [&](std::size_t i, const Scene& scene) { out[i] = scene.look(eyes[i]).overlap_row(); });
+    return out;
+}
+
+}  // namespace vfplan

@@ -1,0 +1,219 @@
+#include "engine/tables/site.h"
+
+#include <fmt/format.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/tables/shards.h"
+#include "io/site/vector_reader.h"
+#include "io/tables/site_store.h"
+#include "kernels/coverage.h"
+#include "kernels/error.h"
+#include "kernels/free_cells.h"
+#include "kernels/index.h"
+
+namespace vfplan {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<Ring> forbidden_rings(const GroundOptions& o, const Site& site) {
+    if (o.forbidden.empty()) return {};
+    std::vector<Polygon> polygons;
+    for (Feature& f :
+         read_features(o.forbidden, {SiteKind::outdoor, "", o.site.crs, o.site.unit_m}).features) {
+        each_point(f, [&](Vec2d& v) { v -= site.origin; });
+        for (Polygon& p : f.polygons) polygons.push_back(std::move(p));
+    }
+    return rings_of_union(polygons, o.site.snap_m);
+}
+
+void check_points(const std::vector<Vec2d>& points, const Site& site,
+                  const std::vector<Ring>& forbidden, const char* key) {
+    for (const Vec2d& point : points) {
+        const Vec2d at = point - site.origin;
+        const char* why = nullptr;
+        if (!site.extent.contains(at) || !inside_odd(site.free_region, at)) {
+            why = "it is not in free space";
+        } else if (inside_odd(forbidden, at)) {
+            why = "plan.forbidden covers it";
+        }
+        if (why != nullptr) {
+            throw UsageError(
+                fmt::format("{}: no station can stand at ({}, {}): {}; give a point in "
+                            "the coordinates of the site",
+                            key, point.x(), point.y(), why));
+        }
+    }
+}
+
+Json site_summary(const Site& site) {
+    return {{"buildings", site.buildings},
+            {"walls", site.walls.size()},
+            {"area_m2", site.area_m2},
+            {"width_m", site.extent.size().x()},
+            {"height_m", site.extent.size().y()},
+            {"cleaning",
+             {{"features", site.counts.features},
+              {"ignored", site.counts.ignored},
+              {"outside_crop", site.counts.outside_crop},
+              {"repaired", site.counts.repaired},
+              {"dropped_invalid", site.counts.dropped_invalid},
+              {"edges_in", site.counts.edges_in},
+              {"zero_length", site.counts.zero_length},
+              {"duplicates", site.counts.duplicates},
+              {"split", site.counts.split},
+              {"merged", site.counts.merged},
+              {"inside_solids", site.counts.inside_solids}}}};
+}
+
+// Rings that a band of rows may cross.
+std::vector<Ring> rings_in(const std::vector<Ring>& rings, double y_min, double y_max) {
+    std::vector<Ring> out;
+    for (const Ring& ring : rings) {
+        const auto [low, high] = std::minmax_element(
+            ring.begin(), ring.end(), [](const Vec2d& a, const Vec2d& b) { return a.y() < b.y(); });
+        if (ring.empty() || low->y() > y_max || high->y() < y_min) continue;
+        out.push_back(ring);
+    }
+    return out;
+}
+
+// One line for people.
+std::string site_text(const Site& site) {
+    const CleaningCounts& c = site.counts;
+    return fmt::format(
+        "site         {} features, {} walls on {:.0f} x {:.0f} m (edges: {} read, {} too short, {} "
+        "repeated, {} split, {} joined, {} inside solids)",
+        c.features, site.walls.size(), site.extent.size().x(), site.extent.size().y(), c.edges_in,
+        c.zero_length, c.duplicates, c.split, c.merged, c.inside_solids);
+}
+
+}  // namespace
+
+Layout layout_of(const GroundOptions& o, const Site& site) {
+    const Vec2d size = site.extent.size();
+    const double cell = o.cell_m;
+    if (cell > size.x() || cell > size.y()) {
+        throw UsageError(
+            fmt::format("field.cell_m = {}: a cell is larger than the site, which is "
+                        "{:.1f} x {:.1f} m; choose a smaller one",
+                        cell, size.x(), size.y()));
+    }
+    const double cells = std::ceil(size.x() / cell) * std::ceil(size.y() / cell);
+    constexpr double most = 1e11;
+    if (cells > most) {
+        throw UsageError(
+            fmt::format("field.cell_m = {}: {:.3g} cells, of which {:.0g} can be numbered; choose "
+                        "larger cells or crop_m",
+                        cell, cells, most));
+    }
+    return make_layout(make_grid(site.extent, cell, o.site.snap_m), o.range_max_m, o.tile_cells);
+}
+
+std::vector<std::vector<std::uint8_t>> standable_bits(const GroundOptions& o, const Site& site,
+                                                      const Layout& layout,
+                                                      const Threads& threads) {
+    const std::vector<Ring> forbidden = forbidden_rings(o, site);
+    std::vector<std::vector<std::uint8_t>> out(idx(layout.patches()));
+    threads.for_each(layout.patch_rows(), 1, [&](std::int64_t from, std::int64_t to) {
+        for (std::int64_t row = from; row < to; ++row) {
+            const std::int64_t first = row * layout.patch_columns();
+            Window band = layout.patch_window(first);
+            band.x_end = layout.grid.nx;
+            const Grid grid = part_of(layout.grid, band);
+            const double y_min = grid.origin.y();
+            const double y_max = y_min + grid.cell_m * grid.ny;
+            Raster<std::uint8_t> free = free_cells(grid, rings_in(site.free_region, y_min, y_max));
+            const Raster<std::uint8_t> kept_out =
+                free_cells(grid, rings_in(forbidden, y_min, y_max));
+            std::vector<Wall> near;
+            if (const double clear = o.clearance_m; clear > 0) {
+                for (const Wall& w : site.walls) {
+                    if (std::max(w.a.y(), w.b.y()) + clear < y_min) continue;
+                    if (std::min(w.a.y(), w.b.y()) - clear > y_max) continue;
+                    near.push_back(w);
+                }
+            }
+            const Raster<std::uint8_t> too_near = cells_near_walls(grid, near, o.clearance_m);
+            for (std::size_t i = 0; i < free.size(); ++i) {
+                if (kept_out[i] != 0 || too_near[i] != 0) free[i] = 0;
+            }
+            for (std::int64_t p = first; p < first + layout.patch_columns(); ++p) {
+                const Window w = layout.patch_window(p);
+                std::vector<std::uint8_t>& bits = out[idx(p)];
+                bits.assign((idx(w.size()) + 7) / 8, 0);
+                std::size_t i = 0;
+                for (std::int32_t y = 0; y < grid.ny; ++y) {
+                    for (std::int32_t x = w.x_begin; x < w.x_end; ++x, ++i) {
+                        const unsigned bit = free[idx(grid.id(x, y))] != 0 ? 1U << (i % 8) : 0U;
+                        bits[i / 8] = static_cast<std::uint8_t>(bits[i / 8] | bit);
+                    }
+                }
+            }
+        }
+    });
+    return out;
+}
+
+Site read_ground(const GroundOptions& o, const Threads& threads, Progress& progress) {
+    SiteOptions options = o.site;
+    options.for_each = [&](std::int64_t n, const SiteOptions::Body& body) {
+        threads.for_each(n, 16, body);
+    };
+    SiteResult read = read_site(o.input, options);
+    for (const std::string& w : read.warnings) progress.warn(w);
+    progress.note(site_text(read.site));
+    if (!o.required.empty()) {
+        check_points(o.required, read.site, forbidden_rings(o, read.site), "plan.required");
+    }
+    check_points(o.existing, read.site, {}, "plan.existing");
+    return std::move(read.site);
+}
+
+void store_site(const GroundOptions& o, const std::string& key, const Site& site,
+                const Threads& threads, const std::filesystem::path& path) {
+    const Layout layout = layout_of(o, site);
+    const auto bits = standable_bits(o, site, layout, threads);
+    SiteFacts facts;
+    for (const auto& patch : bits) {
+        for (const std::uint8_t byte : patch) facts.free_cells += std::popcount(byte);
+    }
+    if (facts.free_cells == 0) {
+        throw UsageError(
+            fmt::format("field.cell_m = {}: no cell's centre lies in free space; "
+                        "choose a smaller cell",
+                        o.cell_m));
+    }
+    const Pieces pieces = cut_into_pieces(site.walls, o.partition_m);
+    facts.origin = site.origin;
+    facts.crs_wkt = site.crs_wkt;
+    facts.buildings = site.buildings;
+    facts.walls = static_cast<std::int64_t>(site.walls.size());
+    facts.pieces = pieces.size();
+    facts.extent = site.extent;
+    const Json summary = {{"site", site_summary(site)},
+                          {"grid",
+                           {{"cells", layout.grid.size()},
+                            {"free_cells", facts.free_cells},
+                            {"cell_m", layout.grid.cell_m}}}};
+    facts.summary = summary.dump();
+    write_site_store(
+        path, key, layout, facts, site.walls, pieces,
+        near_walls(layout, site.walls, wall_reach_m(o.range_max_m, o.partition_m, o.site.snap_m)),
+        bits);
+}
+
+void make_site(const GroundOptions& options, const std::filesystem::path& dir,
+               const std::string& key, const Threads& threads, Progress& progress) {
+    const std::filesystem::path site = dir / "work" / "site.h5";
+    if (have_shard(site, key, progress)) return;
+    store_site(options, key, read_ground(options, threads, progress), threads, site);
+    malloc_trim(0);  // of what reading took, nothing is needed any more
+}
+
+}  // namespace vfplan

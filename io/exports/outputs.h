@@ -1,0 +1,54 @@
+// What a plan is handed out as: one table for who writes the files, removes them, foretells them
+// and explains them.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vfplan {
+
+class FieldFile;
+struct CoverageTables;
+struct Plan;
+
+// What the files are made of; refers to what outlives it.
+struct Results {
+    const FieldFile& field;
+    const CoverageTables& tables;
+    const Plan& plan;
+    std::string title;     // of the map, one line: the site
+    std::string subtitle;  // one line: what the plan reached
+    int map_px = 1600;
+};
+
+// What a file takes, as it turned out on real sites (docs/performance.md).
+struct OutputCost {
+    double fixed = 0;
+    double per_piece = 0;
+    double per_candidate = 0;
+    double per_pixel = 0;  // of the map, squared side
+
+    double of(double pieces, double candidates, double pixels) const {
+        return fixed + per_piece * pieces + per_candidate * candidates + per_pixel * pixels;
+    }
+};
+
+struct Output {
+    std::string_view format;  // as in output.formats
+    std::string_view file;    // in the run directory
+    // Whole or not at all; equal plans give equal bytes. Throws IoError.
+    void (*write)(const std::filesystem::path& path, const Results& results);
+    OutputCost bytes;
+    OutputCost seconds;
+    OutputCost memory_bytes;
+};
+
+// In the order in which they are written.
+const std::vector<Output>& outputs();
+// Each format once.
+std::vector<std::string> output_formats();
+
+}  // namespace vfplan

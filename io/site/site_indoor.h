@@ -1,0 +1,15 @@
+// Floor plans: walls, their free sides and the free region from features.
+#pragma once
+
+#include "io/site/feature.h"
+#include "io/site/site_options.h"
+#include "kernels/wall.h"
+
+namespace vfplan {
+
+// Free space is the outline when there is one, else the named rooms and the doorways between
+// them, else what the walls enclose. Solids (thick walls, obstacles) and slits are
+// taken out of it.
+void build_indoor(const FeaturesByRole& in, const SiteOptions& options, Site& site);
+
+}  // namespace vfplan

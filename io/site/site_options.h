@@ -1,0 +1,55 @@
+// How a site is read.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernels/names.h"
+
+namespace vfplan {
+
+enum class SiteKind : std::uint8_t { outdoor, indoor };
+enum class DoorMode : std::uint8_t { open, closed };
+enum class WindowMode : std::uint8_t { wall, ignore, opening };
+enum class InvalidPolygons : std::uint8_t { error, repair, drop };
+
+template <>
+struct Names<SiteKind> {
+    static constexpr std::array<std::string_view, 2> all = {"outdoor", "indoor"};
+};
+template <>
+struct Names<DoorMode> {
+    static constexpr std::array<std::string_view, 2> all = {"open", "closed"};
+};
+template <>
+struct Names<WindowMode> {
+    static constexpr std::array<std::string_view, 3> all = {"wall", "ignore", "opening"};
+};
+template <>
+struct Names<InvalidPolygons> {
+    static constexpr std::array<std::string_view, 3> all = {"error", "repair", "drop"};
+};
+
+struct SiteOptions {
+    SiteKind kind = SiteKind::outdoor;
+    std::string layer;
+    std::string crs;
+    double unit_m = 1;
+    double snap_m = 0.001;
+    double margin_m = 0;         // free ground around the outermost walls (outdoor)
+    std::vector<double> crop_m;  // empty or x0, y0, x1, y1 in the file's own metres
+    DoorMode doors = DoorMode::open;
+    WindowMode windows = WindowMode::wall;
+    InvalidPolygons invalid = InvalidPolygons::error;
+    double stand_radius_m = 0.3;  // indoors: a space is a room when such a circle fits in
+    // Calls body(from, to) for disjoint parts of [0, n), perhaps several at once.
+    using Body = std::function<void(std::int64_t, std::int64_t)>;
+    std::function<void(std::int64_t n, const Body& body)> for_each =
+        [](std::int64_t n, const Body& body) { body(0, n); };
+};
+
+}  // namespace vfplan

@@ -1,0 +1,161 @@
+#include "io/site/site_reader.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "io/site/planar.h"
+#include "io/site/site_indoor.h"
+#include "io/site/site_outdoor.h"
+#include "io/site/vector_reader.h"
+#include "kernels/error.h"
+
+namespace vfplan {
+namespace {
+
+Box bounds(Feature& f) {
+    Box box;
+    each_point(f, [&](const Vec2d& v) { box.add(v); });
+    return box;
+}
+
+// Keeps the features whose bounding box has its centre in the crop: none is cut in two.
+void crop(FeatureSet& set, const std::vector<double>& crop_m, CleaningCounts& counts) {
+    if (crop_m.empty()) return;
+    const Box keep{{crop_m[0], crop_m[1]}, {crop_m[2], crop_m[3]}};
+    counts.outside_crop = static_cast<std::int64_t>(std::erase_if(set.features, [&](Feature& f) {
+        const Box box = bounds(f);
+        return !keep.contains((box.min + box.max) / 2);
+    }));
+}
+
+void settle_invalid(FeatureSet& set, const SiteOptions& options, const std::string& name,
+                    CleaningCounts& counts) {
+    // Asking takes long, and features do not mind each other.
+    std::vector<std::vector<std::string>> reasons(set.features.size());
+    options.for_each(
+        static_cast<std::int64_t>(reasons.size()), [&](std::int64_t from, std::int64_t to) {
+            for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) {
+                for (const Polygon& p : set.features[i].polygons) {
+                    reasons[i].push_back(planar::invalid_reason(p));
+                }
+            }
+        });
+    for (std::size_t i = 0; i < set.features.size(); ++i) {
+        Feature& f = set.features[i];
+        if (f.role == Role::drawing || f.role == Role::opening) continue;
+        std::vector<Polygon> valid;
+        for (std::size_t k = 0; k < f.polygons.size(); ++k) {
+            Polygon& p = f.polygons[k];
+            if (p.outer.size() < 3) {  // a point or a line drawn as a polygon: no area to lose
+                ++counts.dropped_invalid;
+                continue;
+            }
+            const std::string& reason = reasons[i][k];
+            if (reason.empty()) {
+                valid.push_back(std::move(p));
+                continue;
+            }
+            switch (options.invalid) {
+                case InvalidPolygons::error:
+                    throw InputError(fmt::format(
+                        "{}: feature {}{}{}: {}; correct the polygon, or set site.invalid = "
+                        "\"repair\" or \"drop\"",
+                        name, f.number, f.id.empty() ? "" : ", id ", f.id, reason));
+                case InvalidPolygons::repair:
+                    for (Polygon& part : planar::repaired(p)) valid.push_back(std::move(part));
+                    ++counts.repaired;
+                    break;
+                case InvalidPolygons::drop:
+                    ++counts.dropped_invalid;
+                    break;
+            }
+        }
+        f.polygons = std::move(valid);
+    }
+}
+
+std::string problem_without_walls(bool no_features, const SiteOptions& options) {
+    if (no_features && !options.crop_m.empty()) {
+        return "no feature has its centre in site.crop_m; check the crop, it is in the file's "
+               "metres";
+    }
+    if (no_features) {
+        return options.kind == SiteKind::outdoor
+                   ? "no building polygons in it; check the file and site.layer"
+                   : "no walls, rooms or outlines in it; check the file and site.layer";
+    }
+    return options.kind == SiteKind::outdoor
+               ? "no walls are left after cleaning; if this is a floor plan set site.kind = "
+                 "\"indoor\""
+               : "no walls are left after cleaning (rooms alone are none: give walls or an "
+                 "outline); if "
+                 "this is a town set site.kind = \"outdoor\"";
+}
+
+}  // namespace
+
+std::vector<Ring> rings_of_union(const std::vector<Polygon>& polygons, double snap_m) {
+    std::vector<Ring> rings;
+    for (const Polygon& p : planar::unite(polygons, snap_m)) {
+        rings.push_back(p.outer);
+        rings.insert(rings.end(), p.holes.begin(), p.holes.end());
+    }
+    return rings;
+}
+
+SiteResult read_site(const std::filesystem::path& file, const SiteOptions& options) {
+    return build_site(
+        read_features(file, {options.kind, options.layer, options.crs, options.unit_m}), options,
+        file.string());
+}
+
+SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::string& name) {
+    SiteResult out;
+    Site& site = out.site;
+    out.warnings = set.warnings;
+    site.crs_wkt = set.crs_wkt;
+    site.counts.features = static_cast<std::int64_t>(set.features.size()) + set.ignored;
+    site.counts.ignored = set.ignored;
+    crop(set, options.crop_m, site.counts);
+    Box box;
+    for (Feature& f : set.features) {
+        const Box b = bounds(f);
+        box.add(b.min);
+        box.add(b.max);
+    }
+    const bool no_features = set.features.empty();
+    if (no_features) {
+        throw InputError(fmt::format("{}: {}", name, problem_without_walls(no_features, options)));
+    }
+    settle_invalid(set, options, name, site.counts);
+    site.origin = {std::floor(box.min.x()), std::floor(box.min.y())};
+    FeaturesByRole sorted;
+    for (Feature& f : set.features) {
+        each_point(f, [&](Vec2d& v) { v -= site.origin; });
+        if (f.role == Role::drawing || f.role == Role::opening) ++site.counts.ignored;
+        const auto role = static_cast<std::size_t>(f.role);
+        for (Polygon& p : f.polygons) sorted.polygons[role].push_back(std::move(p));
+        for (Line& line : f.lines) sorted.lines[role].push_back(std::move(line));
+    }
+    set.features = {};  // a county's are hundreds of megabytes
+    if (options.kind == SiteKind::outdoor) {
+        build_outdoor(sorted, options, site);
+    } else {
+        build_indoor(sorted, options, site);
+    }
+    site.counts.walls = static_cast<std::int64_t>(site.walls.size());
+    if (site.walls.empty()) {
+        throw InputError(fmt::format("{}: {}", name, problem_without_walls(no_features, options)));
+    }
+    if (site.free_region.empty()) {
+        throw InputError(
+            fmt::format("{}: nowhere in it can a station stand: the walls enclose no "
+                        "space wider than {} m; give rooms or an outline, or check "
+                        "site.unit_m",
+                        name, 2 * options.stand_radius_m));
+    }
+    return out;
+}
+
+}  // namespace vfplan

@@ -1,0 +1,30 @@
+// From a file's features to a cleaned site: walls that meet at their ends only, with their free
+// sides, and the region where stations may stand (SPEC section 1).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/site/feature.h"
+#include "io/site/site_options.h"
+#include "kernels/wall.h"
+
+namespace vfplan {
+
+struct SiteResult {
+    Site site;
+    std::vector<std::string> warnings;
+};
+
+// Reads and cleans. Throws as read_features() does, and InputError for an invalid polygon (by
+// its feature, reason and place), for no walls, and for no free space.
+SiteResult read_site(const std::filesystem::path& file, const SiteOptions& options);
+
+// The same from features in memory; `name` is used in messages.
+SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::string& name);
+
+// The rings of the union of polygons, for even-odd tests.
+std::vector<Ring> rings_of_union(const std::vector<Polygon>& polygons, double snap_m);
+
+}  // namespace vfplan

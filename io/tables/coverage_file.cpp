@@ -1,0 +1,182 @@
+#include "io/tables/coverage_file.h"
+
+#include "io/columns.h"
+#include "io/tables/crs.h"
+#include "io/tables/shard.h"
+#include "io/tables/shard_index.h"
+#include "io/tables/wall_columns.h"
+#include "kernels/index.h"
+
+namespace vfplan {
+namespace {
+
+constexpr const char* frame = "m, site frame: input coordinates minus the origin in crs";
+
+void write_candidates(h5::Writer& file, const std::vector<Candidate>& c) {
+    file.group("candidates");
+    file.attribute("candidates", "units", frame);
+    file.write("candidates/x", column<double>(c, [](const Candidate& k) { return k.at.x(); }));
+    file.write("candidates/y", column<double>(c, [](const Candidate& k) { return k.at.y(); }));
+    file.write("candidates/cell",
+               column<std::int64_t>(c, [](const Candidate& k) { return k.cell; }));
+    file.write("candidates/vf", column<float>(c, [](const Candidate& k) { return k.vf_rad; }));
+    write_codes(file, "candidates/kind",
+                column<CandidateKind>(c, [](const Candidate& k) { return k.kind; }));
+}
+
+std::vector<Candidate> read_candidates(const h5::Reader& file) {
+    const auto x = file.read<double>("candidates/x");
+    const auto y = file.read<double>("candidates/y");
+    const auto cell = file.read<std::int64_t>("candidates/cell");
+    const auto vf = file.read<float>("candidates/vf");
+    const auto kind = file.read<std::uint8_t>("candidates/kind");
+    std::vector<Candidate> out;
+    out.reserve(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        out.push_back({{x[i], y[i]}, cell[i], static_cast<CandidateKind>(kind[i]), vf[i]});
+    }
+    return out;
+}
+
+// A county has twenty million pieces: some walls' at a time.
+void write_pieces(h5::Writer& file, const std::vector<Wall>& walls, const Pieces& pieces,
+                  const std::vector<PieceStatus>& status) {
+    const auto count = static_cast<std::uint64_t>(pieces.size());
+    file.group("pieces");
+    file.begin<std::int32_t>("pieces/wall", count);
+    file.begin<std::uint8_t>("pieces/side", count);
+    file.begin<double>("pieces/s0_m", count);
+    file.begin<double>("pieces/s1_m", count);
+    constexpr std::size_t at_once = 1U << 18;
+    std::vector<std::int32_t> wall;
+    std::vector<std::uint8_t> side;
+    std::vector<double> s0;
+    std::vector<double> s1;
+    std::vector<std::int32_t> on_side[2];
+    const auto flush = [&] {
+        file.append("pieces/wall", wall);
+        file.append("pieces/side", side);
+        file.append("pieces/s0_m", s0);
+        file.append("pieces/s1_m", s1);
+        wall.clear();
+        side.clear();
+        s0.clear();
+        s1.clear();
+    };
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+        const auto number = static_cast<std::int32_t>(w);
+        const double length = walls[w].length_m();
+        for (const Side s : {left, right}) {
+            const std::int32_t n = pieces.count(number, s);
+            on_side[s].push_back(n);
+            for (std::int32_t k = 0; k < n; ++k) {
+                wall.push_back(number);
+                side.push_back(s);
+                s0.push_back(piece_begin_m(length, k, n));
+                s1.push_back(piece_begin_m(length, k + 1, n));
+            }
+        }
+        if (wall.size() >= at_once) flush();
+    }
+    flush();
+    file.attribute("pieces/side", "meaning", "0 left of the wall as it runs, 1 right");
+    write_codes(file, "pieces/status", status);
+    file.write("walls/pieces_left", on_side[left]);
+    file.write("walls/pieces_right", on_side[right]);
+}
+
+}  // namespace
+
+void write_coverage_block(const std::filesystem::path& path, const std::string& key,
+                          const CoverageBlock& block) {
+    h5::Writer file = begin_shard(path, key);
+    write_candidates(file, block.candidates);
+    const CoverageTable& t = block.table;
+    file.group("coverage");
+    file.write("coverage/indptr", t.begin);
+    file.write("coverage/indices",
+               column<std::int32_t>(t.seen, [](const Seen& s) { return s.piece; }));
+    file.write("coverage/data", column<float>(t.seen, [](const Seen& s) { return s.fraction; }));
+    file.write("coverage/angle_rad",
+               column<float>(t.seen, [](const Seen& s) { return s.angle_rad; }));
+    finish_shard(file);
+}
+
+void write_coverage_index(const std::filesystem::path& path, const std::vector<Wall>& walls,
+                          const Pieces& pieces, const std::vector<std::filesystem::path>& blocks,
+                          const CoverageInfo& info) {
+    std::vector<Candidate> candidates;
+    std::vector<std::int64_t> begin = {0};
+    std::vector<PieceStatus> status(idx(pieces.size()), PieceStatus::no_viewpoint);
+    std::vector<std::uint64_t> entries;  // of each block
+    for (const std::filesystem::path& block : blocks) {
+        const h5::Reader file(block);
+        const std::vector<Candidate> some = read_candidates(file);
+        candidates.insert(candidates.end(), some.begin(), some.end());
+        const auto indptr = file.read<std::int64_t>("coverage/indptr");
+        const std::int64_t before = begin.back();
+        for (std::size_t i = 1; i < indptr.size(); ++i) begin.push_back(before + indptr[i]);
+        entries.push_back(static_cast<std::uint64_t>(indptr.back()));
+        for (const std::int32_t p : file.read<std::int32_t>("coverage/indices")) {
+            status[idx(p)] = PieceStatus::covered;
+        }
+    }
+    h5::Writer file = begin_table(path, "coverage table: candidates x pieces", info.key);
+    file.attribute("/", "summary", info.summary);
+    write_crs(file, info.crs_wkt, info.origin);
+    file.group("walls");
+    file.attribute("walls", "units", frame);
+    write_walls(file, "walls", walls);
+    write_pieces(file, walls, pieces, status);
+    write_candidates(file, candidates);
+    file.group("coverage");
+    file.attribute("coverage", "encoding-type", "csr_matrix");
+    file.attribute("coverage", "encoding-version", "0.1.0");
+    file.attribute(
+        "coverage", "shape",
+        std::vector<std::int64_t>{static_cast<std::int64_t>(candidates.size()), pieces.size()});
+    file.write("coverage/indptr", begin);
+    const auto whole = static_cast<std::uint64_t>(begin.back());
+    const auto parts = [&](const char* name) {
+        std::vector<h5::Source> sources;
+        std::uint64_t from = 0;
+        for (std::size_t b = 0; b < blocks.size(); ++b) {
+            if (entries[b] > 0) {
+                sources.push_back({name_in_index(blocks[b]),
+                                   std::string("coverage/") + name,
+                                   {from},
+                                   {entries[b]}});
+            }
+            from += entries[b];
+        }
+        return sources;
+    };
+    file.write_virtual<std::int32_t>("coverage/indices", {whole}, parts("indices"), -1);
+    file.write_virtual<float>("coverage/data", {whole}, parts("data"), 0);
+    file.write_virtual<float>("coverage/angle_rad", {whole}, parts("angle_rad"), 0);
+    write_shard_list(file, blocks);
+    finish_table(file);
+}
+
+CoverageTables read_coverage(const std::filesystem::path& path) {
+    const h5::Reader file(path);
+    check_version(file, path);
+    check_shards(path);
+    CoverageTables t;
+    t.key = file.text("/", "key");
+    t.summary = file.text("/", "summary");
+    t.crs_wkt = read_crs(file, t.origin);
+    t.walls = read_walls(file, "walls");
+    const auto on_left = file.read<std::int32_t>("walls/pieces_left");
+    const auto on_right = file.read<std::int32_t>("walls/pieces_right");
+    for (std::size_t w = 0; w < t.walls.size(); ++w) {
+        t.pieces.add_wall(t.walls[w].length_m(), on_left[w], on_right[w]);
+    }
+    t.status = column<PieceStatus>(file.read<std::uint8_t>("pieces/status"),
+                                   [](std::uint8_t v) { return v; });
+    t.candidates = read_candidates(file);
+    t.begin = file.read<std::int64_t>("coverage/indptr");
+    return t;
+}
+
+}  // namespace vfplan

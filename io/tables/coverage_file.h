@@ -1,0 +1,77 @@
+// coverage.h5: walls, pieces, candidates, and the coverage table, an index over blocks of its rows
+// (docs/file_format.md).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/h5_reader.h"
+#include "kernels/candidate.h"
+#include "kernels/coverage.h"
+#include "kernels/wall.h"
+
+namespace vfplan {
+
+// Rows of some candidates; `table` has as many.
+struct CoverageBlock {
+    std::vector<Candidate> candidates;
+    CoverageTable table;
+};
+void write_coverage_block(const std::filesystem::path& path, const std::string& key,
+                          const CoverageBlock& block);
+
+// All that planning needs, so that it needs no geometry, but the entries of the rows.
+struct CoverageTables {
+    std::vector<Wall> walls;
+    Pieces pieces;
+    std::vector<PieceStatus> status;  // no_viewpoint; covered = some candidate does
+    std::vector<Candidate> candidates;
+    std::vector<std::int64_t> begin = {0};  // entries of row i: [begin[i], begin[i + 1])
+    Vec2d origin{0, 0};
+    std::string crs_wkt;
+    std::string key;
+    std::string summary;
+
+    std::int64_t rows() const { return static_cast<std::int64_t>(begin.size()) - 1; }
+    std::int64_t entries() const { return begin.back(); }
+};
+
+// `blocks`: the shards with the rows, in order. As write_field_index().
+struct CoverageInfo {
+    Vec2d origin{0, 0};
+    std::string crs_wkt;
+    std::string key;
+    std::string summary;  // JSON of how it was made, for summary.json
+};
+void write_coverage_index(const std::filesystem::path& path, const std::vector<Wall>& walls,
+                          const Pieces& pieces, const std::vector<std::filesystem::path>& blocks,
+                          const CoverageInfo& info);
+// Checks every shard, as FieldFile.
+CoverageTables read_coverage(const std::filesystem::path& path);
+
+// The entries of the rows, as far as they are asked for. Thread-safe.
+class CoverageEntries {
+public:
+    explicit CoverageEntries(const std::filesystem::path& path) : file_(path) {}
+    std::vector<std::int32_t> pieces(std::int64_t from, std::int64_t count) const {
+        return read<std::int32_t>("indices", from, count);
+    }
+    std::vector<float> fractions(std::int64_t from, std::int64_t count) const {
+        return read<float>("data", from, count);
+    }
+    std::vector<float> angles_rad(std::int64_t from, std::int64_t count) const {
+        return read<float>("angle_rad", from, count);
+    }
+
+private:
+    template <class T>
+    std::vector<T> read(const char* name, std::int64_t from, std::int64_t count) const {
+        return file_.read<T>(std::string("coverage/") + name, static_cast<std::uint64_t>(from),
+                             static_cast<std::uint64_t>(count));
+    }
+    h5::Reader file_;
+};
+
+}  // namespace vfplan

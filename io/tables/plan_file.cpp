@@ -1,0 +1,79 @@
+#include "io/tables/plan_file.h"
+
+#include <algorithm>
+
+#include "io/checksum.h"
+#include "io/columns.h"
+#include "io/h5_reader.h"
+#include "io/tables/shard_index.h"
+
+namespace vfplan {
+
+void write_plan(const std::filesystem::path& path, const PlanTable& t) {
+    h5::Writer file = begin_table(path, "stations and links", t.key);
+    file.attribute("/", "overlap_ratio", std::string(name_of(t.overlap.ratio)));
+    file.attribute("/", "overlap_threshold", t.overlap.threshold);
+    const auto& s = t.plan.stations;
+    file.group("stations");
+    file.write("stations/candidate",
+               column<std::int32_t>(s, [](const Station& k) { return k.candidate; }));
+    file.write("stations/component",
+               column<std::int32_t>(s, [](const Station& k) { return k.network; }));
+    file.write("stations/order", column<std::int32_t>(s, [](const Station& k) { return k.order; }));
+    file.write("stations/new_length_m",
+               column<double>(s, [](const Station& k) { return k.new_length_m; }));
+    file.write("stations/seen_length_m",
+               column<double>(s, [](const Station& k) { return k.seen_length_m; }));
+    const auto& l = t.plan.links;
+    file.group("links");
+    file.write("links/from", column<std::int32_t>(l, [](const Link& k) { return k.from; }));
+    file.write("links/to", column<std::int32_t>(l, [](const Link& k) { return k.to; }));
+    file.write("links/overlap", column<double>(l, [](const Link& k) { return k.overlap; }));
+    for (std::size_t r = 0; r < overlap_ratio_count; ++r) {
+        file.write("links/" + std::string(overlap_ratios[r].name),
+                   column<double>(l, [r](const Link& k) { return k.ratios[r]; }));
+    }
+    write_codes(file, "piece_status", t.plan.pieces);
+    file.group("certificate");
+    file.write("certificate/pieces", t.plan.bound_pieces);
+    file.attribute("certificate", "meaning",
+                   "no candidate covers two of these pieces, so every plan over these candidates "
+                   "that covers them has at least as many stations");
+    finish_table(file);
+}
+
+PlanTable read_plan(const std::filesystem::path& path) {
+    const h5::Reader file(path);
+    check_version(file, path);
+    PlanTable t;
+    t.key = file.text("/", "key");
+    const std::string ratio_name = file.text("/", "overlap_ratio");
+    const auto named = [&](const OverlapFormula& f) { return f.name == ratio_name; };
+    const auto ratio = std::find_if(overlap_ratios.begin(), overlap_ratios.end(), named);
+    if (ratio == overlap_ratios.end()) damaged(path, "no ratio is called " + ratio_name);
+    t.overlap = {ratio->ratio, file.number("/", "overlap_threshold")};
+    const auto candidate = file.read<std::int32_t>("stations/candidate");
+    const auto network = file.read<std::int32_t>("stations/component");
+    const auto order = file.read<std::int32_t>("stations/order");
+    const auto fresh = file.read<double>("stations/new_length_m");
+    const auto seen = file.read<double>("stations/seen_length_m");
+    for (std::size_t i = 0; i < candidate.size(); ++i) {
+        t.plan.stations.push_back({candidate[i], network[i], order[i], fresh[i], seen[i]});
+    }
+    const auto from = file.read<std::int32_t>("links/from");
+    const auto to = file.read<std::int32_t>("links/to");
+    const auto overlap = file.read<double>("links/overlap");
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        t.plan.links.push_back({from[i], to[i], overlap[i], {}});
+    }
+    for (std::size_t r = 0; r < overlap_ratio_count; ++r) {
+        const auto values = file.read<double>("links/" + std::string(overlap_ratios[r].name));
+        for (std::size_t i = 0; i < from.size(); ++i) t.plan.links[i].ratios[r] = values[i];
+    }
+    t.plan.pieces = column<PieceStatus>(file.read<std::uint8_t>("piece_status"),
+                                        [](std::uint8_t v) { return v; });
+    t.plan.bound_pieces = file.read<std::int32_t>("certificate/pieces");
+    return t;
+}
+
+}  // namespace vfplan
