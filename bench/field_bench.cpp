@@ -125,13 +125,13 @@ void exact_field(benchmark::State& state, const std::string& site) {
 void embree_field(benchmark::State& state, const std::string& site) {
     const Sample* s = sample(state, site);
     if (s == nullptr) return;
-    const int rays =
-        state.range(0) > 0 ? static_cast<int>(state.range(0)) : rays_of(s->scene->config);
+    const int rays = state.range(0) > 0 ? static_cast<int>(state.range(0))
+                                        : scene_options(s->scene->config).rays;
     const EmbreeScene scene(s->scene->walls(), s->scene->extent(), s->scene->scanner().range_max_m,
                             rays);
     FieldCounts counts;
     const Error e = error_of(s->run(scene, &counts), s->exact);
-    if (rays >= rays_of(s->scene->config) && !(e.mean <= 1.5e-3 && e.p999 <= 5e-2)) {
+    if (rays >= scene_options(s->scene->config).rays && !(e.mean <= 1.5e-3 && e.p999 <= 5e-2)) {
         return state.SkipWithError("farther from exact than 1.5e-3 rad or, for 0.1 %, 5e-2 rad");
     }
     for (auto _ : state) benchmark::DoNotOptimize(s->run(scene));
@@ -175,8 +175,8 @@ void per_ray(benchmark::State& state, const std::vector<std::vector<Vec2d>>& gro
 void bare_packets(benchmark::State& state, const std::string& site) {
     const Sample* s = sample(state, site);
     if (s == nullptr) return;
-    const int first =
-        state.range(0) > 0 ? static_cast<int>(state.range(0)) : rays_of(s->scene->config);
+    const int first = state.range(0) > 0 ? static_cast<int>(state.range(0))
+                                         : scene_options(s->scene->config).rays;
     const EmbreeScene scene(s->scene->walls(), s->scene->extent(), s->scene->scanner().range_max_m,
                             first);
     FieldCounts counts;

@@ -1,6 +1,7 @@
 // The stages after the field, one thread, on the generated town and city. What each computes is
 // verified by the tests; here a digest of it must be the same in every iteration.
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -61,8 +62,8 @@ struct Made {
         }
         make_tables(table_options(scene->config), dir, key, threads, ranks, progress);
         const Grid& g = scene->grid();
-        const FieldTiles tiles(scene->layout, {dir / "shards", "field",
-                                               "-" + std::to_string(scene->layout.tile_cells)});
+        const FieldTiles tiles(
+            scene->layout, {dir / "shards", "field", fmt::format("-{}", scene->layout.tile_cells)});
         FieldWindow field = tiles.window({0, 0, g.nx, g.ny});
         domain = field.domain(scene->config.field.threshold_rad);
         vf_rad = std::move(field.vf_rad);

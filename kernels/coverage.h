@@ -1,4 +1,4 @@
-// Pieces of wall, and which of them a station covers (eq. 1, SPEC section 4).
+// Pieces of wall, and which of them a station covers (eq. 1, docs/method.md 4).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Shortest ways over cells.
+// Shortest paths over cells.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Joints and ridges of a skeleton (section "Converging Lines and Joints"; SPEC section 3).
+// Joints and ridges of a skeleton (docs/method.md 3).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// The scan model (section "Visibility Field", eq. 4): 360 degrees, from range_min_m to
-// range_max_m, up to the first wall, optionally only where the beam meets the wall steeply enough.
+// The scan model (eq. 4; docs/method.md 2): 360 degrees, from range_min_m to range_max_m, up to the
+// first wall, optionally only where the beam meets the wall steeply enough.
 #pragma once
 
 namespace vfplan {

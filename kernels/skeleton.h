@@ -1,5 +1,5 @@
-// The medial axis of the domain: average outward flux and homotopic thinning (Siddiqi et al.,
-// section "Converging Lines and Joints"; SPEC section 3).
+// The medial axis of the domain: average outward flux and homotopic thinning (Siddiqi et al.;
+// docs/method.md 3).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Walls and the site they enclose (SPEC section 1), the common input of every kernel.
+// Walls and the site they enclose (docs/method.md 1), the common input of every kernel.
 #pragma once
 
 #include <array>

@@ -1,8 +1,5 @@
 #include "engine/job/sample.h"
 
-#include <fmt/format.h>
-#include <stdlib.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -14,7 +11,7 @@
 #include "engine/tables/site.h"
 #include "engine/tables/tables.h"
 #include "io/tables/coverage_file.h"
-#include "kernels/error.h"
+#include "io/temporary_folder.h"
 #include "kernels/index.h"
 
 namespace vfplan {
@@ -22,34 +19,6 @@ namespace {
 
 constexpr double square_cells = 320;  // side of a square that is tried, at least
 constexpr int squares_tried = 6;
-
-// A folder for temporary files that goes with its object.
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        std::error_code error;
-        std::filesystem::path base = std::filesystem::temp_directory_path(error);
-        if (error) base = "/tmp";
-        std::string name = (base / "vfplan-estimate-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) {
-            throw IoError(
-                fmt::format("{}: the folder cannot be created; free space there or set "
-                            "TMPDIR",
-                            name));
-        }
-        path_ = name;
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
 
 // Walls of a site by the square that their middle lies in.
 struct Squares {
@@ -132,7 +101,7 @@ double bytes_below(const std::filesystem::path& folder, const std::string& prefi
 // Makes the tables of a part of the site and adds what they took.
 void try_part(const GroundOptions& ground, const TableOptions& options, const Site& site,
               const Threads& threads, Sample& sum) {
-    const TemporaryFolder folder;
+    const TemporaryFolder folder("vfplan-estimate");
     const Ranks alone{Ranks::Alone{}};
     Progress quiet(true);
     make_shard_folders(folder.path(), options.tile_cells);

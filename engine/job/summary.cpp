@@ -39,7 +39,7 @@ std::string apart_text(const Planned& p, const Config& config) {
     if (enclosed > 0) {
         out += fmt::format(
             "             {}: no chain of candidates shares a piece with the main one; walls or "
-            "distance part them, or cells of {} m are too coarse for the way between\n",
+            "distance part them, or cells of {} m are too coarse for a path between\n",
             networks(enclosed), config.field.cell_m);
     }
     if (const std::int64_t weak = m.networks - 1 - enclosed; weak > 0) {

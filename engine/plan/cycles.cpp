@@ -19,7 +19,7 @@ std::int32_t Cycles::top(std::int32_t node) {
     return node;
 }
 
-// The way between the two in the forest, and the link between them: a cycle.
+// The path between the two in the forest, and the link between them: a cycle.
 void Cycles::close(std::int32_t a, std::int32_t b) {
     a = top(a);
     b = top(b);

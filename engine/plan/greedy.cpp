@@ -40,7 +40,7 @@ public:
     Chosen run(const std::vector<std::int32_t>& forced) {
         take(forced.empty() ? seed() : forced.front());
         for (const std::int32_t v : forced) {
-            if (chosen_[idx(v)] == 0) take_way_to(v);
+            if (chosen_[idx(v)] == 0) take_path_to(v);
         }
         for (bool more = true; more;) {
             const std::int32_t next = best_of_frontier();
@@ -148,7 +148,7 @@ private:
         for (const std::int32_t c : goals) {
             if (key(c) > key(goal)) goal = c;
         }
-        take_way_to(goal);
+        take_path_to(goal);
         return true;
     }
 
@@ -181,11 +181,11 @@ private:
 
     // Takes the fewest hops from the chosen set to v.
     // REQUIRES: v is joined to the chosen set.
-    void take_way_to(std::int32_t v) {
+    void take_path_to(std::int32_t v) {
         std::vector<std::int32_t> level;
         if (hops_[idx(v)] == Workspace::far_away) level = rim();
         while (hops_[idx(v)] == Workspace::far_away) level = beyond(level);
-        take_way(v);
+        take_path(v);
     }
 
     // What is most_hops away.
@@ -194,7 +194,7 @@ private:
         return rim_;
     }
 
-    // What is one hop beyond all that is at `level`. Known until the next way is taken.
+    // What is one hop beyond all that is at `level`. Known until the next path is taken.
     std::vector<std::int32_t> beyond(const std::vector<std::int32_t>& level) {
         std::vector<std::int32_t> out;
         for (const std::int32_t v : level) {
@@ -208,8 +208,8 @@ private:
         return out;
     }
 
-    // Takes the best way to `goal`, looking only at the shortest ways that lead there.
-    void take_way(std::int32_t goal) {
+    // Takes the best path to `goal`, looking only at the shortest ones that lead there.
+    void take_path(std::int32_t goal) {
         const std::int32_t hops = hops_[idx(goal)];
         std::vector<std::vector<std::int32_t>> levels = {{goal}};
         std::vector<std::int32_t> touched = levels.back();
@@ -232,9 +232,9 @@ private:
             std::sort(levels[k].begin(), levels[k].end());
             for (const std::int32_t v : levels[k]) {
                 in_.graph.each(v, [&](std::int32_t n, double overlap) {
-                    const bool on_the_way =
+                    const bool on_a_path =
                         hops_[idx(n)] == hops_[idx(v)] + 1 && before_[idx(n)] != nowhere;
-                    if (!on_the_way || overlap <= step_[idx(n)]) return;
+                    if (!on_a_path || overlap <= step_[idx(n)]) return;
                     step_[idx(n)] = overlap;
                     before_[idx(n)] = v;
                 });
@@ -274,8 +274,8 @@ private:
     };
 
     static constexpr std::int32_t most_hops = 8;  // kept up to date; beyond, beyond() looks
-    static constexpr std::int32_t nowhere = -1;   // before_: not on a way
-    static constexpr std::int32_t reached = -2;   // before_: on a way, nothing before it yet
+    static constexpr std::int32_t nowhere = -1;   // before_: on no path
+    static constexpr std::int32_t reached = -2;   // before_: on a path, nothing before it yet
 
     const PlanInput& in_;
     const std::vector<std::int32_t>& members_;
@@ -283,11 +283,11 @@ private:
     std::vector<std::uint8_t>& chosen_;
     std::vector<double>& overlap_;     // highest with the chosen set
     std::vector<std::int32_t>& hops_;  // from the chosen set
-    std::vector<double>& step_;        // best overlap with the step before, on the ways at hand
+    std::vector<double>& step_;        // best overlap with the step before, on the paths at hand
     std::vector<std::int32_t>& before_;
     std::vector<Ranked> ranked_;        // by hops
     std::vector<std::int32_t> rim_;     // most_hops away; some have come nearer
-    std::vector<std::int32_t> beyond_;  // farther than that, found for one way
+    std::vector<std::int32_t> beyond_;  // farther than that, found for one path
     std::priority_queue<Entry> frontier_;
     Chosen order_;
 };

@@ -1,4 +1,4 @@
-// Algorithm 1 with its gaps closed (SPEC section 6).
+// Algorithm 1 with its gaps closed (docs/method.md 6).
 #pragma once
 
 #include <cstdint>

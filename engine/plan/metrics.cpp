@@ -27,10 +27,10 @@ struct Reached {
 
 // The stations' graph for many searches: neighbours lie near each other in memory, and a search
 // touches its own network only.
-class Roads {
+class PathGraph {
 public:
-    explicit Roads(const Graph& graph) : place_(idx(graph.size()), -1) {
-        roads_.begin.reserve(place_.size() + 1);
+    explicit PathGraph(const Graph& graph) : place_(idx(graph.size()), -1) {
+        edges_.begin.reserve(place_.size() + 1);
         std::vector<std::int32_t> order;  // breadth first, network after network
         order.reserve(place_.size());
         for (std::int32_t seed = 0; seed < graph.size(); ++seed) {
@@ -52,14 +52,14 @@ public:
         }
         for (const std::int32_t v : order) {
             graph.each(v, [&](std::int32_t n, double overlap) {
-                roads_.to.push_back(place_[idx(n)]);
-                roads_.overlap.push_back(overlap);
+                edges_.to.push_back(place_[idx(n)]);
+                edges_.overlap.push_back(overlap);
             });
-            roads_.begin.push_back(static_cast<std::int64_t>(roads_.to.size()));
+            edges_.begin.push_back(static_cast<std::int64_t>(edges_.to.size()));
         }
     }
 
-    std::int32_t size() const { return roads_.size(); }
+    std::int32_t size() const { return edges_.size(); }
 
     // Ordered pairs of stations that a path joins.
     std::int64_t connected_pairs() const {
@@ -99,7 +99,7 @@ public:
             for (std::size_t i = 0; i < bucket.size(); ++i) {  // it grows
                 const auto [d, v] = bucket[i];
                 if (d > distance[idx(v - base)]) continue;
-                roads_.each(v, [&, d = d](std::int32_t n, double overlap) {
+                edges_.each(v, [&, d = d](std::int32_t n, double overlap) {
                     const double longer = d + (1 - overlap);
                     if (longer >= distance[idx(n - base)]) return;
                     distance[idx(n - base)] = longer;
@@ -126,7 +126,7 @@ private:
         std::int32_t first, end;             // places
         std::vector<std::int32_t> stations;  // ascending, for sums in a fixed order
     };
-    Graph roads_;                      // by place
+    Graph edges_;                      // by place
     std::vector<std::int32_t> place_;  // of each station
     std::vector<Network> networks_;
 };
@@ -190,12 +190,12 @@ PathMeasures measure_paths(const Threads& threads, const Graph& graph, std::int6
     const std::int64_t n = graph.size();
     if (n < 2) return m;
     m.sources = std::min(n, most_sources);
-    const Roads roads(graph);
+    const PathGraph paths(graph);
     std::vector<Reached> reached(idx(m.sources));
     threads.for_each(m.sources, 8, [&](std::int64_t from, std::int64_t to) {
-        Roads::Scratch scratch;
+        PathGraph::Scratch scratch;
         for (std::int64_t s = from; s < to; ++s) {
-            reached[idx(s)] = roads.from(static_cast<std::int32_t>(s * n / m.sources), scratch);
+            reached[idx(s)] = paths.from(static_cast<std::int32_t>(s * n / m.sources), scratch);
         }
     });
     Reached all;
@@ -205,7 +205,7 @@ PathMeasures measure_paths(const Threads& threads, const Graph& graph, std::int6
     }
     if (all.count > 0) m.wapl = all.sum / static_cast<double>(all.count);
     const std::int64_t pairs = n * (n - 1);
-    const std::int64_t connected = roads.connected_pairs();
+    const std::int64_t connected = paths.connected_pairs();
     m.disconnected_pairs = (pairs - connected) / 2;
     m.wapl_penalty100 =
         (m.wapl * static_cast<double>(connected) + 100.0 * static_cast<double>(pairs - connected)) /

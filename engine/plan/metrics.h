@@ -1,4 +1,4 @@
-// How good a plan is (section "Performance Metrics"; SPEC section 7).
+// How good a plan is (docs/method.md 7).
 #pragma once
 
 #include <cstdint>

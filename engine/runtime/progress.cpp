@@ -98,7 +98,7 @@ void Progress::show(std::int64_t done, bool last) {
         const int filled = static_cast<int>(width * done / total_);
         const double left =
             done > 0 ? spent * static_cast<double>(total_ - done) / static_cast<double>(done) : 0;
-        fmt::print(stderr, "\r{:<12} [{:=<{}}{:{}}] {:3d} %  {} left\033[K", name_, "", filled, "",
+        fmt::print(stderr, "\r{:<15} [{:=<{}}{:{}}] {:3d} %  {} left\033[K", name_, "", filled, "",
                    width - filled, percent, span_text(left));
         std::fflush(stderr);
     } else {
@@ -124,7 +124,7 @@ void Progress::finish() {
     times_.push_back({name_, now.wall_s - stage_begin_.wall_s, now.cpu_s - stage_begin_.cpu_s,
                       std::max(stage_peak_mb_.exchange(0), resident_mb())});
     if (!quiet_ && times_.back().wall_s >= 0.1) {
-        note(fmt::format("{:<12} {}", name_, span_text(times_.back().wall_s)));
+        note(fmt::format("{:<15} {}", name_, span_text(times_.back().wall_s)));
     }
     name_.clear();
 }

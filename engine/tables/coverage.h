@@ -1,4 +1,4 @@
-// The coverage table (eq. 1, SPEC section 4).
+// The coverage table (eq. 1, docs/method.md 4).
 #pragma once
 
 #include <filesystem>

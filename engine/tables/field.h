@@ -1,4 +1,4 @@
-// The visibility field (SPEC section 2).
+// The visibility field (docs/method.md 2).
 #pragma once
 
 #include "engine/tables/shards.h"

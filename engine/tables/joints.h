@@ -1,5 +1,5 @@
-// The first candidates: where ridges meet, and what ridges without joints stand for (SPEC section
-// 3).
+// The first candidates: where ridges meet, and what ridges without joints stand for
+// (docs/method.md 3).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// The shortest paths between components of the overlap graph, over cells that see anything (SPEC
-// section 6, "densified where needed").
+// The shortest paths between components of the overlap graph, over cells that see anything
+// (docs/method.md 6, "densified where needed").
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Candidates for walls that no ridge sees (SPEC section 4).
+// Candidates for walls that no ridge sees (docs/method.md 4).
 #pragma once
 
 #include <cstdint>

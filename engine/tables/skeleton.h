@@ -1,4 +1,4 @@
-// The skeleton of the field, and what it is made of: joints and ridges (SPEC section 3).
+// The skeleton of the field, and what it is made of: joints and ridges (docs/method.md 3).
 #pragma once
 
 #include "engine/tables/shards.h"

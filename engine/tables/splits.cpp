@@ -63,14 +63,14 @@ std::vector<CellPath> paths_of(const TileRidges::Line& ridge,
 std::int64_t split_paths(const TableJob& job, const OverlapRule& rule,
                          const std::vector<CellPath>& paths, Pool& pool,
                          std::vector<std::int64_t>& inserted) {
-    struct Part {
+    struct Stretch {
         std::size_t path;
         std::size_t from;
         std::size_t to;
     };
     constexpr int depth_most = 16;
     const Grid& grid = job.layout().grid;
-    std::vector<Part> open;
+    std::vector<Stretch> open;
     for (std::size_t i = 0; i < paths.size(); ++i) {
         if (paths[i].size() > 1) open.push_back({i, 0, paths[i].size() - 1});
     }
@@ -80,18 +80,18 @@ std::int64_t split_paths(const TableJob& job, const OverlapRule& rule,
         job.threads.for_each(
             static_cast<std::int64_t>(open.size()), 16, [&](std::int64_t from, std::int64_t to) {
                 for (std::int64_t i = from; i < to; ++i) {
-                    const Part& p = open[idx(i)];
+                    const Stretch& p = open[idx(i)];
                     const CellPath& path = paths[p.path];
                     const double o =
                         overlap(rule.ratio, pool.row(path[p.from]), pool.row(path[p.to]));
                     apart[idx(i)] = rule.enough(o) ? 0 : 1;
                 }
             });
-        std::vector<Part> next;
+        std::vector<Stretch> next;
         std::vector<std::int64_t> middles;
         for (std::size_t i = 0; i < open.size(); ++i) {
             if (apart[i] == 0) continue;
-            const Part& p = open[i];
+            const Stretch& p = open[i];
             if (p.to < p.from + 2 || depth == depth_most) {
                 falls_short[p.path] = 1;
                 continue;

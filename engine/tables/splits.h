@@ -1,5 +1,5 @@
 // Candidates along ridges: ends that cover something new, and middles where neighbours overlap too
-// little (SPEC section 3).
+// little (docs/method.md 3).
 #pragma once
 
 #include <cstdint>

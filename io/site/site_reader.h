@@ -1,5 +1,5 @@
 // From a file's features to a cleaned site: walls that meet at their ends only, with their free
-// sides, and the region where stations may stand (SPEC section 1).
+// sides, and the region where stations may stand (docs/method.md 1).
 #pragma once
 
 #include <filesystem>

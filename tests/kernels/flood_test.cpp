@@ -1,4 +1,4 @@
-// Shortest ways over cells.
+// Shortest paths over cells.
 #include "kernels/flood.h"
 
 #include <gtest/gtest.h>

@@ -7,23 +7,12 @@
 #include <map>
 #include <random>
 
+#include "tests/kernels/random_table.h"
+
 namespace vfplan {
 namespace {
 
-CoverageTable random_table(std::uint64_t seed, int rows, std::int32_t pieces) {
-    std::mt19937_64 random(seed);
-    CoverageTable table;
-    for (int r = 0; r < rows; ++r) {
-        CoverageRow row;
-        for (std::int32_t p = 0; p < pieces; ++p) {
-            if (random() % 4 == 0) {
-                row.push_back({p, 1, 0.001F * static_cast<float>(random() % 1000)});
-            }
-        }
-        table.add(row);
-    }
-    return table;
-}
+using test::random_table;
 
 TEST(OverlapRows, HoldTheTable) {
     const CoverageTable table = random_table(1, 40, 30);

@@ -155,7 +155,7 @@ TEST(Greedy, FarGoalsGoByGainAndPathsByOverlapToo) {
     std::vector<OverlapPair> edges;
     const Chosen less = add_chain(rows, edges, 12, 1, 0.9);
     const Chosen weak = add_chain(rows, edges, 12, 2, 0.5);
-    // Another way of 12 hops to the end of `weak`, with a better last step.
+    // Another path of 12 hops to the end of `weak`, with a better last step.
     Chosen strong = add_chain(rows, edges, 11, 0, 0.4);
     rows[static_cast<std::size_t>(strong.back())] = {};
     edges.push_back({weak.back(), strong.back(), 0.6});

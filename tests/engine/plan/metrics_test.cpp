@@ -1,4 +1,4 @@
-// Measures of plans made by hand, with values worked out by hand (SPEC section 7).
+// Measures of plans made by hand, with values worked out by hand (docs/method.md 7).
 #include "engine/plan/metrics.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ TEST(Wapl, MeanOfShortestPathsWithOneMinusOverlap) {
     const Metrics path = of_graph({0, 0, 0}, {{0, 1, 0.5}, {1, 2, 0.8}});
     EXPECT_DOUBLE_EQ(path.wapl, 1.4 / 3);
     EXPECT_DOUBLE_EQ(path.wapl_penalty100, 1.4 / 3);
-    // The direct link 0 - 2 of weight 0.9 is longer than the way over 1, one of 0.6 is shorter.
+    // The direct link 0 - 2 of weight 0.9 is longer than the path over 1, one of 0.6 is shorter.
     EXPECT_DOUBLE_EQ(of_graph({0, 0, 0}, {{0, 1, 0.5}, {0, 2, 0.1}, {1, 2, 0.8}}).wapl, 1.4 / 3);
     EXPECT_DOUBLE_EQ(of_graph({0, 0, 0}, {{0, 1, 0.5}, {0, 2, 0.4}, {1, 2, 0.8}}).wapl, 1.3 / 3);
     EXPECT_EQ(of_graph({0, 0}, {{0, 1, 1}}).wapl, 0);

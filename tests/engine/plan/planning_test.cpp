@@ -4,31 +4,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "tests/io/site/features.h"
+#include "tests/kernels/random_table.h"
 
 namespace vfplan {
 namespace {
 
-CoverageTable random_table(std::uint64_t seed, int rows, std::int32_t pieces) {
-    std::mt19937_64 random(seed);
-    CoverageTable table;
-    for (int r = 0; r < rows; ++r) {
-        CoverageRow row;
-        for (std::int32_t p = 0; p < pieces; ++p) {
-            if (random() % 4 == 0) {
-                row.push_back({p, 1, 0.001F * static_cast<float>(random() % 1000)});
-            }
-        }
-        table.add(row);
-    }
-    return table;
-}
-
 TEST(PlanTables, HoldTheRowsThatTheFileHas) {
     // In two blocks: rows 0 to 29 and the rest.
-    const CoverageTable table = random_table(2, 50, 20);
+    const CoverageTable table = test::random_table(2, 50, 20);
     std::vector<Wall> walls(20, {Vec2d(0, 0), Vec2d(1, 0)});
     const test::TemporaryFolder folder("rows");
     std::filesystem::create_directories(folder.path() / "shards");

@@ -1,4 +1,4 @@
-// Which points of a skeleton become candidates, and in which order (SPEC section 3).
+// Which points of a skeleton become candidates, and in which order (docs/method.md 3).
 #include <gtest/gtest.h>
 
 #include <set>
@@ -193,25 +193,7 @@ TEST(Candidates, SameForAnyNumberOfThreads) {
         const Lines g = site.world->ridges();
         const CandidateResult one = site.world->candidates(g, site.options, 1);
         const CandidateResult two = site.world->candidates(g, site.options, 2);
-        ASSERT_EQ(one.candidates.size(), two.candidates.size());
-        for (std::size_t i = 0; i < one.candidates.size(); ++i) {
-            const Candidate& a = one.candidates[i];
-            const Candidate& b = two.candidates[i];
-            EXPECT_EQ(std::tuple(a.at.x(), a.at.y(), a.cell, a.kind, a.vf_rad),
-                      std::tuple(b.at.x(), b.at.y(), b.cell, b.kind, b.vf_rad));
-        }
-        EXPECT_EQ(one.table.begin, two.table.begin);
-        ASSERT_EQ(one.table.seen.size(), two.table.seen.size());
-        for (std::size_t i = 0; i < one.table.seen.size(); ++i) {
-            const Seen& a = one.table.seen[i];
-            const Seen& b = two.table.seen[i];
-            EXPECT_EQ(std::tuple(a.piece, a.fraction, a.angle_rad),
-                      std::tuple(b.piece, b.fraction, b.angle_rad));
-        }
-        EXPECT_EQ(one.status, two.status);
-        EXPECT_EQ(one.rescued_pieces, two.rescued_pieces);
-        EXPECT_EQ(one.ridges_short_of_overlap, two.ridges_short_of_overlap);
-        EXPECT_EQ(one.components, two.components);
+        test::expect_same(one, two);
     }
 }
 

@@ -1,4 +1,4 @@
-// Candidates that join components of the overlap graph (SPEC section 6).
+// Candidates that join components of the overlap graph (docs/method.md 6).
 #include <gtest/gtest.h>
 
 #include "kernels/index.h"
@@ -181,7 +181,7 @@ TEST(Connectors, APathOnWhichTheViewJumpsAddsNothing) {
 }
 
 TEST(Connectors, AFailedPathAddsNothingBesideAGoodOne) {
-    // A long hall, split on the way, with a gap of 1 cm at its far end; a wide door at the near
+    // A long hall, split on the path, with a gap of 1 cm at its far end; a wide door at the near
     // one.
     World::Setting s;
     s.scanner.range_max_m = 12;

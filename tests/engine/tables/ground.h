@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -72,6 +74,30 @@ inline CandidateResult read_result(const std::filesystem::path& file) {
     search.at("components_before_connectors").get_to(out.components_before);
     search.at("components").get_to(out.components);
     return out;
+}
+
+// To the last bit.
+inline void expect_same(const CandidateResult& a, const CandidateResult& b) {
+    ASSERT_EQ(a.candidates.size(), b.candidates.size());
+    for (std::size_t i = 0; i < a.candidates.size(); ++i) {
+        const Candidate& p = a.candidates[i];
+        const Candidate& q = b.candidates[i];
+        ASSERT_EQ(std::tuple(p.at.x(), p.at.y(), p.cell, p.kind, p.vf_rad),
+                  std::tuple(q.at.x(), q.at.y(), q.cell, q.kind, q.vf_rad));
+    }
+    EXPECT_EQ(a.table.begin, b.table.begin);
+    ASSERT_EQ(a.table.seen.size(), b.table.seen.size());
+    for (std::size_t i = 0; i < a.table.seen.size(); ++i) {
+        const Seen& p = a.table.seen[i];
+        const Seen& q = b.table.seen[i];
+        ASSERT_EQ(std::tuple(p.piece, p.fraction, p.angle_rad),
+                  std::tuple(q.piece, q.fraction, q.angle_rad));
+    }
+    EXPECT_EQ(a.status, b.status);
+    EXPECT_EQ(a.ridges_short_of_overlap, b.ridges_short_of_overlap);
+    EXPECT_EQ(a.rescued_pieces, b.rescued_pieces);
+    EXPECT_EQ(a.components_before, b.components_before);
+    EXPECT_EQ(a.components, b.components);
 }
 
 // A skeleton, and its joints and ridges.

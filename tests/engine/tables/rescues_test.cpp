@@ -1,4 +1,4 @@
-// Pieces that no joint or ridge sees: rescued, or without viewpoint (SPEC section 4).
+// Pieces that no joint or ridge sees: rescued, or without viewpoint (docs/method.md 4).
 #include <gtest/gtest.h>
 
 #include "kernels/index.h"

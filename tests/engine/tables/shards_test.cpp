@@ -75,28 +75,7 @@ TEST(Tiles, OfAnySideGiveTheSameFieldSkeletonAndTable) {
         EXPECT_EQ(one.closed, other.closed);
         EXPECT_EQ(one.skeleton.cell, other.skeleton.cell);
         EXPECT_EQ(one.skeleton.squared, other.skeleton.squared);
-        const CandidateResult& a = one.result;
-        const CandidateResult& b = other.result;
-        ASSERT_EQ(a.candidates.size(), b.candidates.size());
-        for (std::size_t i = 0; i < a.candidates.size(); ++i) {
-            const Candidate& p = a.candidates[i];
-            const Candidate& q = b.candidates[i];
-            ASSERT_EQ(std::tuple(p.at.x(), p.at.y(), p.cell, p.kind, p.vf_rad),
-                      std::tuple(q.at.x(), q.at.y(), q.cell, q.kind, q.vf_rad));
-        }
-        EXPECT_EQ(a.table.begin, b.table.begin);
-        ASSERT_EQ(a.table.seen.size(), b.table.seen.size());
-        for (std::size_t i = 0; i < a.table.seen.size(); ++i) {
-            const Seen& p = a.table.seen[i];
-            const Seen& q = b.table.seen[i];
-            ASSERT_EQ(std::tuple(p.piece, p.fraction, p.angle_rad),
-                      std::tuple(q.piece, q.fraction, q.angle_rad));
-        }
-        EXPECT_EQ(a.status, b.status);
-        EXPECT_EQ(a.components, b.components);
-        EXPECT_EQ(a.components_before, b.components_before);
-        EXPECT_EQ(a.rescued_pieces, b.rescued_pieces);
-        EXPECT_EQ(a.ridges_short_of_overlap, b.ridges_short_of_overlap);
+        test::expect_same(one.result, other.result);
     }
 }
 
@@ -201,9 +180,9 @@ TEST(Shards, WhatFailsNamesTheShardAndHowToRepeatIt) {
         return std::string();
     };
     const std::string said = failing([] { throw std::out_of_range("vector"); });
-    for (const std::string& words :
-         {std::string("count-00001.h5 could not be made: vector"),
-          "vfplan run '" + (c.job.dir / "job.toml").string() + "' --out '" + c.job.dir.string() + "'"}) {
+    for (const std::string& words : {std::string("count-00001.h5 could not be made: vector"),
+                                     "vfplan run '" + (c.job.dir / "job.toml").string() +
+                                         "' --out '" + c.job.dir.string() + "'"}) {
         EXPECT_NE(said.find(words), std::string::npos) << said;
     }
     // What the user can mend says so itself.

@@ -1,4 +1,4 @@
-// Ridge splitting: middles until neighbours overlap enough (SPEC section 3).
+// Ridge splitting: middles until neighbours overlap enough (docs/method.md 3).
 #include <gtest/gtest.h>
 
 #include <cmath>
