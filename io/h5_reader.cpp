@@ -38,10 +38,6 @@ Reader::~Reader() {
     delete impl_;
 }
 
-bool Reader::has(const std::string& name) const {
-    return H5Lexists(impl_->file, name.c_str(), H5P_DEFAULT) > 0;
-}
-
 Dims Reader::dims(const std::string& name) const {
     const Id set(H5Dopen2(impl_->file, name.c_str(), H5P_DEFAULT), H5Dclose);
     if (set < 0) impl_->fail("no dataset " + name);

@@ -20,7 +20,6 @@ public:
     Reader(const Reader&) = delete;
     Reader& operator=(const Reader&) = delete;
 
-    bool has(const std::string& name) const;
     Dims dims(const std::string& name) const;
     template <class T>
     std::vector<T> read(const std::string& name) const;

@@ -36,10 +36,6 @@ inline hid_t type_of<double>() {
     return H5T_IEEE_F64LE;
 }
 template <>
-inline hid_t type_of<std::int8_t>() {
-    return H5T_STD_I8LE;
-}
-template <>
 inline hid_t type_of<std::uint8_t>() {
     return H5T_STD_U8LE;
 }
@@ -61,7 +57,6 @@ void be_quiet();
 #define VFPLAN_EACH_H5_TYPE(DO) \
     DO(float)                   \
     DO(double)                  \
-    DO(std::int8_t)             \
     DO(std::uint8_t)            \
     DO(std::int32_t)            \
     DO(std::int64_t)

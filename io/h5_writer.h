@@ -34,7 +34,7 @@ public:
 
     void group(const std::string& name);
 
-    // A dataset of float, double, int8..int64, uint8; large ones chunked and compressed.
+    // A dataset of float, double, uint8, int32 or int64; large ones chunked and compressed.
     // `chunk`: values in a chunk of one dimension, small where short stretches will be read.
     template <class T>
     void write(const std::string& name, const std::vector<T>& data, Dims dims = {},

@@ -79,12 +79,6 @@ struct CoverageTable {
     std::vector<Seen> seen;
 
     std::int64_t rows() const { return static_cast<std::int64_t>(begin.size()) - 1; }
-    const Seen* row_begin(std::int64_t row) const {
-        return seen.data() + begin[static_cast<std::size_t>(row)];
-    }
-    const Seen* row_end(std::int64_t row) const {
-        return seen.data() + begin[static_cast<std::size_t>(row) + 1];
-    }
     void add(const CoverageRow& row);
 };
 

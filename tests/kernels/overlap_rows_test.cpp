@@ -19,13 +19,13 @@ TEST(OverlapRows, HoldTheTable) {
     const OverlapRows rows = overlap_rows(table, true);
     ASSERT_EQ(rows.size(), 40);
     for (std::int32_t r = 0; r < rows.size(); ++r) {
-        const Seen* s = table.row_begin(r);
+        const CoverageRow row = test::row_of(table, r);
         const SeenRow seen = rows.seen(r, {});
-        for (std::size_t i = 0; i < seen.piece.size(); ++i, ++s) {
-            EXPECT_EQ(s->piece, seen.piece[i]);
-            EXPECT_EQ(s->angle_rad, seen.angle_rad[i]);
+        ASSERT_EQ(seen.piece.size(), row.size());
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            EXPECT_EQ(seen.piece[i], row[i].piece);
+            EXPECT_EQ(seen.angle_rad[i], row[i].angle_rad);
         }
-        EXPECT_EQ(s, table.row_end(r));
     }
     EXPECT_TRUE(overlap_rows(table, false).angle_rad.empty());
 }
@@ -47,7 +47,7 @@ TEST(OverlapRows, EveryWayToTheOverlapOfTwoRowsGivesTheSameBits) {
         const OverlapRows rows = overlap_rows(table, true);
         std::vector<OverlapRow> own;  // numbered from 1000 on
         for (std::int64_t r = 0; r < table.rows(); ++r) {
-            CoverageRow row(table.row_begin(r), table.row_end(r));
+            CoverageRow row = test::row_of(table, r);
             std::vector<double> of_entries;
             for (Seen& s : row) {
                 of_entries.push_back(lengths[idx(s.piece)]);

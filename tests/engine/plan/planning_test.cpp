@@ -21,7 +21,7 @@ TEST(PlanTables, HoldTheRowsThatTheFileHas) {
         CoverageBlock block;
         block.candidates.resize(idx(to - from));
         for (std::int64_t r = from; r < to; ++r) {
-            block.table.add({table.row_begin(r), table.row_end(r)});
+            block.table.add(test::row_of(table, r));
         }
         blocks.push_back(folder.path() / "shards" / fmt::format("block-{:05}.h5", blocks.size()));
         write_coverage_block(blocks.back(), "key", block);
