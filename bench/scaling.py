@@ -335,7 +335,7 @@ def model(bench):
         data["cores"].append({"cores": p, **{k: sums[k] / (p * spans[k]) for k in tasks},
                               "both": sum(sums.values()) / (p * sum(spans.values())),
                               "amdahl_speed_up": amdahl, "amdahl_efficiency": amdahl / p})
-    walls = {"field": ["wall_field_s"], "coverage": ["wall_joints_s", "wall_ridges_s"],
+    walls = {"field": ["wall_field_s"], "coverage": ["wall_joints_s", "wall_splits_s"],
              "whole": ["wall_s"]}
     for r in rows:
         data["measured"].append({"threads": r["threads"], **{
@@ -351,7 +351,7 @@ def model_lines(data):
                for k in ("field", "coverage", "whole")),
              f"{c['amdahl_speed_up']:.2f}", f"{c['amdahl_efficiency']:.3f}"] for c in data["cores"]]
     head = ["cores", "model: field", "model: coverage", "model: both", "measured: field",
-            "measured: joints and ridges", "measured: whole job",
+            "measured: joints and splits", "measured: whole job",
             "model (Amdahl): speed-up of the whole job", "model (Amdahl): efficiency"]
     counts = ", ".join(f"{v['count']} tasks of {k} ({v['sum_s']:.2f} s, longest "
                        f"{1000 * v['longest_s']:.2f} ms)" for k, v in data["tasks"].items())

@@ -119,18 +119,28 @@ std::vector<Task> coverage_tasks(Scenes& scenes, const CoverageTables& t,
             }
             return to - from;
         });
-    for (std::int64_t i = 0; i < eyes; ++i) {
-        const std::int64_t from = t.begin[idx(i)];
-        const std::int64_t count = t.begin[idx(i) + 1] - from;
+    constexpr std::int64_t at_once = 2048;  // rows: a read of the tables costs a chunk at least
+    for (std::int64_t first = 0; first < eyes; first += at_once) {
+        const std::int64_t last = std::min(first + at_once, eyes);
+        const std::int64_t from = t.begin[idx(first)];
+        const std::int64_t count = t.begin[idx(last)] - from;
         const auto pieces = entries.pieces(from, count);
         const auto fractions = entries.fractions(from, count);
         const auto angles = entries.angles_rad(from, count);
-        bool same = rows[idx(i)].size() == pieces.size();
-        for (std::size_t k = 0; same && k < pieces.size(); ++k) {
-            const Seen& s = rows[idx(i)][k];
-            same = s.piece == pieces[k] && s.fraction == fractions[k] && s.angle_rad == angles[k];
+        for (std::int64_t i = first; i < last; ++i) {
+            auto k = idx(t.begin[idx(i)] - from);
+            bool same = static_cast<std::int64_t>(rows[idx(i)].size()) ==
+                        t.begin[idx(i) + 1] - t.begin[idx(i)];
+            for (const Seen& s : rows[idx(i)]) {
+                if (!same) break;
+                same =
+                    s.piece == pieces[k] && s.fraction == fractions[k] && s.angle_rad == angles[k];
+                ++k;
+            }
+            if (!same) {
+                throw Differs(fmt::format("coverage.h5 has other pieces for candidate {}", i));
+            }
         }
-        if (!same) throw Differs(fmt::format("coverage.h5 has other pieces for candidate {}", i));
     }
     return tasks;
 }

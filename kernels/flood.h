@@ -20,7 +20,7 @@ class Flood {
 public:
     static constexpr std::int32_t unreached = std::numeric_limits<std::int32_t>::max();
 
-    // `closed`: see closed_links(). Refers to the rasters.
+    // `closed`: see closed_steps(). Refers to the rasters.
     Flood(const Grid& grid, const Raster<std::uint8_t>& free, const Raster<std::uint8_t>& closed,
           std::int32_t most);
 

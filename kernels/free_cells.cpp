@@ -106,7 +106,7 @@ Raster<std::uint8_t> cells_near_walls(const Grid& grid, const std::vector<Wall>&
     return near;
 }
 
-Raster<std::uint8_t> closed_links(const Grid& grid, const Raster<std::uint8_t>& free,
+Raster<std::uint8_t> closed_steps(const Grid& grid, const Raster<std::uint8_t>& free,
                                   const std::vector<Wall>& walls, const Window& owners) {
     Raster<std::uint8_t> closed(free.size(), 0);
     for (const Wall& wall : walls) {

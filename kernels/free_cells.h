@@ -31,9 +31,9 @@ inline constexpr std::int32_t around_dy[8] = {0, 1, 1, 1, 0, -1, -1, -1};
 
 // Bit k of a free cell is set when a wall separates its centre from that of its free neighbour k:
 // walls thinner than a cell would otherwise be invisible to all that walks from cell to cell.
-// Each link belongs to the cell that has it as one of its first four; only links of `owners` are
+// Each step belongs to the cell that has it as one of its first four; only steps of `owners` are
 // looked at, and noted at both ends.
-Raster<std::uint8_t> closed_links(const Grid& grid, const Raster<std::uint8_t>& free,
+Raster<std::uint8_t> closed_steps(const Grid& grid, const Raster<std::uint8_t>& free,
                                   const std::vector<Wall>& walls, const Window& owners);
 
 }  // namespace vfplan

@@ -1,4 +1,4 @@
-// How much two stations see in common: the five ratios of equations 8 to 12.
+// How much two stations (or candidates for them) cover in common: equations 8 to 12.
 #pragma once
 
 #include <algorithm>

@@ -45,7 +45,7 @@ struct FieldCounts {
 // spans, and for all cells of a window as angles alone, where neighbours share the work.
 //  (1) spans come in counter-clockwise order and overlap in no direction
 //  (2) a span's side is the side that the eye is on
-//  (3) directions in which no wall stands within reach() have no span
+//  (3) directions in which no wall stands within the kernel's reach have no span
 //  (4) equal input gives equal bits, on any machine and any number of threads
 // Thread-safe: one kernel serves all threads; each thread brings its own scratch through View.
 class ViewKernel {

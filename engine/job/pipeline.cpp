@@ -74,6 +74,8 @@ std::string plan_of(const RunDir& dir, const Config& config, const Threads& thre
                    plan_line(planned), static_cast<int>(config.output.map_px)});
     Json summary = summary_of_tables(field, tables);
     summary.update(summary_of_plan(planned, tables));
+    summary["plan"]["method"] = name_of(options.method);
+    summary["plan"]["loops"] = options.loops;
     summary["kernel"] = name_of(config.visibility.kernel);
     summary["overlap"] = {{"ratio", name_of(config.overlap.ratio)},
                           {"threshold", config.overlap.threshold}};

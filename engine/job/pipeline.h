@@ -24,8 +24,8 @@ struct JobOptions {
 std::string run_job(const Config& config, const JobOptions& options, const Ranks& ranks,
                     Progress& progress);
 
-// plan DIR: plans again from the tables of a run directory. `overrides` may set plan.*, overlap.*
-// and output.* only.
+// plan DIR: plans again from the tables of a run directory. `overrides` may set what tables do not
+// depend on, and overlap.*; else UsageError.
 std::string plan_again(const std::filesystem::path& dir, const std::vector<std::string>& overrides,
                        int threads, Progress& progress);
 

@@ -9,8 +9,8 @@
 
 namespace vfplan {
 
-// Of all that must not depend on threads, ranks, tiles or machine. In bounded memory. Throws
-// IoError.
+// Of the field, candidates, coverage rows, walls, status of pieces, stations and links, value by
+// value: none of it depends on threads, ranks, tiles or machine. In bounded memory. Throws IoError.
 std::string result_hash(const FieldFile& field, const CoverageTables& tables,
                         const CoverageEntries& entries, const Plan& plan);
 

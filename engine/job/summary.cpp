@@ -23,7 +23,7 @@ std::string apart_text(const Planned& p, const Config& config) {
     const Metrics& m = p.metrics;
     std::int64_t enclosed = 0;
     double least = 1;
-    for (const double at : p.joining.joins_at) {
+    for (const double at : p.join_thresholds.joins_at) {
         if (at > 0) {
             least = std::min(least, at);
         } else {
@@ -47,7 +47,7 @@ std::string apart_text(const Planned& p, const Config& config) {
             "             {}: joined from overlap.threshold = {:.3f} down (now {}); smaller cells "
             "may help; with ratio min_len there would be {} in all\n",
             networks(weak), std::floor(least * 1000) / 1000, config.overlap.threshold,
-            networks(p.joining.networks_by_min_len));
+            networks(p.join_thresholds.networks_by_min_len));
     }
     return out;
 }
@@ -95,7 +95,7 @@ Json summary_of_plan(const Planned& p, const CoverageTables& t) {
     j["histograms"] = {{"stations_per_piece", m.multiplicity},
                        {"range_by_tenth_of_max", m.range_tenths},
                        {"incidence_by_10_deg", m.incidence_tens}};
-    std::vector<std::int64_t> stations(p.joining.joins_at.size(), 0);
+    std::vector<std::int64_t> stations(p.join_thresholds.joins_at.size(), 0);
     std::vector<double> length(stations.size(), 0);
     for (const Station& s : p.plan.stations) {
         ++stations[idx(s.network)];
@@ -105,10 +105,10 @@ Json summary_of_plan(const Planned& p, const CoverageTables& t) {
     for (std::size_t n = 0; n < stations.size(); ++n) {
         networks.push_back({{"stations", stations[n]},
                             {"length_m", length[n]},
-                            {"joins_main_at", p.joining.joins_at[n]}});
+                            {"joins_main_at", p.join_thresholds.joins_at[n]}});
     }
     j["network_list"] = networks;
-    j["networks_by_min_len"] = p.joining.networks_by_min_len;
+    j["networks_by_min_len"] = p.join_thresholds.networks_by_min_len;
     return j;
 }
 

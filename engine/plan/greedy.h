@@ -1,4 +1,4 @@
-// Algorithm 1 with its gaps closed (docs/method.md 6).
+// Algorithm 1 with its gaps closed (docs/method.md 7).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// From the coverage table to a connected network of stations (docs/method.md 6 and 7). Works on
+// From the coverage table to a connected network of stations (docs/method.md 7). Works on
 // the tables alone: no geometry.
 #pragma once
 

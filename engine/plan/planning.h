@@ -18,7 +18,7 @@ struct Planned {
     Plan plan;
     PlanReport report;
     Metrics metrics;
-    JoinThresholds joining;
+    JoinThresholds join_thresholds;
 };
 
 // What a plan is made from: about 4 bytes for each entry of the coverage table and 8 for each

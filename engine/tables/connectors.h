@@ -1,5 +1,5 @@
 // Candidates that join components of the overlap graph, along the shortest paths between them
-// (docs/method.md 6, "densified where needed").
+// (docs/method.md 6).
 #pragma once
 
 #include <vector>

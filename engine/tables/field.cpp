@@ -73,7 +73,7 @@ Raster<std::uint8_t> closed_of_tile(const TableJob& job, const SiteStore& site,
                         looked_at.x_end - looked_at.x_begin,
                         looked_at.y_end - looked_at.y_begin};
         const Raster<std::uint8_t> closed =
-            closed_links(grid, site.standable(looked_at), near.walls,
+            closed_steps(grid, site.standable(looked_at), near.walls,
                          {owners.x_begin - looked_at.x_begin, owners.y_begin - looked_at.y_begin,
                           owners.x_end - looked_at.x_begin, owners.y_end - looked_at.y_begin});
         for (std::int32_t y = looked_at.y_begin; y < looked_at.y_end; ++y) {

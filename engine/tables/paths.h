@@ -1,5 +1,5 @@
 // The shortest paths between components of the overlap graph, over cells that see anything
-// (docs/method.md 6, "densified where needed").
+// (docs/method.md 6).
 #pragma once
 
 #include <vector>

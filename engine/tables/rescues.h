@@ -18,7 +18,7 @@ struct Rescued {
 };
 
 // Phase "rescues": for every piece that neither joints nor splits cover the best cell that sees
-// enough of it, cells of the domain (VF at least `threshold_rad`) with the greatest VF first:
+// enough of it, in the order of docs/method.md 4; `threshold_rad` bounds the domain:
 // work/.../rescues-TILE.h5. Then the list of all candidates, of rescue cells the fewest in the
 // order of pieces: work/.../rescues.h5.
 Rescued make_rescues(const TableJob& job, const SiteStore& site, const FieldTiles& field,

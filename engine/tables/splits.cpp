@@ -13,8 +13,8 @@
 namespace vfplan {
 namespace {
 
-// A line of cells whose two ends are candidates.
-using CellPath = std::vector<std::int64_t>;
+// Cells of a ridge from one candidate on it to the next.
+using Arc = std::vector<std::int64_t>;
 
 // Candidates of one tile's ridges while they are split, with their rows.
 class Pool {
@@ -37,15 +37,15 @@ private:
     std::unordered_map<std::int64_t, OverlapRow> rows_;
 };
 
-// The ridge as paths from candidate to candidate: through its joints and the candidates on it.
-std::vector<CellPath> paths_of(const TileRidges::Line& ridge,
-                               const std::unordered_set<std::int64_t>& candidates) {
-    CellPath whole;
+// The ridge as arcs from candidate to candidate: through its joints and the candidates on it.
+std::vector<Arc> arcs_of(const TileRidges::Line& ridge,
+                         const std::unordered_set<std::int64_t>& candidates) {
+    Arc whole;
     if (ridge.joint[0] >= 0) whole.push_back(ridge.joint[0]);
     whole.insert(whole.end(), ridge.cells.begin(), ridge.cells.end());
     if (ridge.joint[1] >= 0) whole.push_back(ridge.joint[1]);
     if (ridge.ring) whole.push_back(ridge.cells.front());
-    std::vector<CellPath> out;
+    std::vector<Arc> out;
     std::size_t last = whole.size();
     for (std::size_t i = 0; i < whole.size(); ++i) {
         const bool is_joint = whole[i] == ridge.joint[0] || whole[i] == ridge.joint[1];
@@ -59,31 +59,30 @@ std::vector<CellPath> paths_of(const TileRidges::Line& ridge,
     return out;
 }
 
-// Ridge splitting. Gives the cells inserted and how many paths end short of the threshold.
-std::int64_t split_paths(const TableJob& job, const OverlapRule& rule,
-                         const std::vector<CellPath>& paths, Pool& pool,
-                         std::vector<std::int64_t>& inserted) {
+// Ridge splitting. Gives the cells inserted and how many arcs end short of the threshold.
+std::int64_t split_arcs(const TableJob& job, const OverlapRule& rule, const std::vector<Arc>& arcs,
+                        Pool& pool, std::vector<std::int64_t>& inserted) {
     struct Stretch {
-        std::size_t path;
+        std::size_t arc;
         std::size_t from;
         std::size_t to;
     };
     constexpr int depth_most = 16;
     const Grid& grid = job.layout().grid;
     std::vector<Stretch> open;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        if (paths[i].size() > 1) open.push_back({i, 0, paths[i].size() - 1});
+    for (std::size_t i = 0; i < arcs.size(); ++i) {
+        if (arcs[i].size() > 1) open.push_back({i, 0, arcs[i].size() - 1});
     }
-    std::vector<std::uint8_t> falls_short(paths.size(), 0);
+    std::vector<std::uint8_t> falls_short(arcs.size(), 0);
     for (int depth = 0; !open.empty(); ++depth) {
         std::vector<std::uint8_t> apart(open.size(), 0);
         job.threads.for_each(
             static_cast<std::int64_t>(open.size()), 16, [&](std::int64_t from, std::int64_t to) {
                 for (std::int64_t i = from; i < to; ++i) {
                     const Stretch& p = open[idx(i)];
-                    const CellPath& path = paths[p.path];
+                    const Arc& arc = arcs[p.arc];
                     const double o =
-                        overlap(rule.ratio, pool.row(path[p.from]), pool.row(path[p.to]));
+                        overlap(rule.ratio, pool.row(arc[p.from]), pool.row(arc[p.to]));
                     apart[idx(i)] = rule.enough(o) ? 0 : 1;
                 }
             });
@@ -93,13 +92,13 @@ std::int64_t split_paths(const TableJob& job, const OverlapRule& rule,
             if (apart[i] == 0) continue;
             const Stretch& p = open[i];
             if (p.to < p.from + 2 || depth == depth_most) {
-                falls_short[p.path] = 1;
+                falls_short[p.arc] = 1;
                 continue;
             }
-            const std::size_t middle = arc_middle(grid, paths[p.path], p.from, p.to);
-            middles.push_back(paths[p.path][middle]);
-            next.push_back({p.path, p.from, middle});
-            next.push_back({p.path, middle, p.to});
+            const std::size_t middle = arc_middle(grid, arcs[p.arc], p.from, p.to);
+            middles.push_back(arcs[p.arc][middle]);
+            next.push_back({p.arc, p.from, middle});
+            next.push_back({p.arc, middle, p.to});
         }
         inserted.insert(inserted.end(), middles.begin(), middles.end());
         pool.add(std::move(middles));
@@ -143,20 +142,20 @@ FoundTile splits_of_tile(const TableJob& job, const TileRidges& tile, const Cove
     }
     std::unordered_set<std::int64_t> on_ridges;
     for (const FoundCandidate& c : found.candidates) on_ridges.insert(c.cell);
-    std::vector<CellPath> paths;
+    std::vector<Arc> arcs;
     for (const TileRidges::Line& ridge : tile.ridges) {
         for (const std::int64_t c : points_without_joint(grid, ridge)) on_ridges.insert(c);
-        for (CellPath& p : paths_of(ridge, on_ridges)) paths.push_back(std::move(p));
+        for (Arc& p : arcs_of(ridge, on_ridges)) arcs.push_back(std::move(p));
     }
     Pool pool(job);
     std::vector<std::int64_t> ends;
-    for (const CellPath& p : paths) {
+    for (const Arc& p : arcs) {
         ends.push_back(p.front());
         ends.push_back(p.back());
     }
     pool.add(std::move(ends));
     std::vector<std::int64_t> inserted;
-    found.short_of_overlap = split_paths(job, rule, paths, pool, inserted);
+    found.short_of_overlap = split_arcs(job, rule, arcs, pool, inserted);
     std::sort(inserted.begin(), inserted.end());
     for (const std::int64_t c : inserted) found.candidates.push_back({c, CandidateKind::split});
     return found;

@@ -113,7 +113,7 @@ void make_coverage_table(const TableJob& job, const SiteStore& site, const Field
     make_coverage_index(job, site, blocks,
                         {{"joints", ridges.joints()},
                          {"ridges", ridges.ridges()},
-                         {"ridges_short_of_overlap", splits.short_of_overlap()},
+                         {"arcs_short_of_overlap", splits.short_of_overlap()},
                          {"rescued_pieces", rescued.pieces},
                          {"components_before_connectors", components.count()},
                          {"components", candidates.components()}});

@@ -24,7 +24,8 @@ struct FoundCandidate {
 struct FoundTile {
     std::vector<FoundCandidate> candidates;
     std::vector<std::int32_t> covered;  // pieces, ascending
-    std::int64_t short_of_overlap = 0;  // ridges split as far as it goes and still below
+    std::int64_t short_of_overlap =
+        0;  // arcs of ridges that are split as far as it goes and still below
 };
 void write_found_tile(const std::filesystem::path& path, const std::string& key,
                       const FoundTile& tile);

@@ -33,7 +33,7 @@ struct FieldWindow {
     std::size_t index(std::int32_t ix, std::int32_t iy) const {
         return static_cast<std::size_t>(grid.id(ix - window.x_begin, iy - window.y_begin));
     }
-    // Where the skeleton may lie: VF at least the threshold, no closed link.
+    // Where the skeleton may lie: VF at least the threshold, no closed step.
     bool in_domain(std::size_t i, double threshold_rad) const;
     Raster<std::uint8_t> domain(double threshold_rad) const;
 };

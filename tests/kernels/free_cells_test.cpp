@@ -130,7 +130,7 @@ TEST(ClosedLinks, EqualBruteForceOnRandomWalls) {
         }
         walls.push_back(wall({3, 4}, {3, 9}));
         walls.push_back(wall({5, 6}, {12, 6}));
-        const auto closed = closed_links(g, free, walls, {0, 0, g.nx, g.ny});
+        const auto closed = closed_steps(g, free, walls, {0, 0, g.nx, g.ny});
         for (std::int64_t c = 0; c < g.size(); ++c) {
             for (unsigned k = 0; k < 8; ++k) {
                 const std::int32_t x = g.ix(c) + around_dx[k];
@@ -154,7 +154,7 @@ TEST(ClosedLinks, EqualBruteForceOnRandomWalls) {
 TEST(ClosedLinks, ThinWallPartsItsTwoSides) {
     const Grid g = make_grid({{0, 0}, {8, 6}}, 1, 0.001);
     const Raster<std::uint8_t> free(static_cast<std::size_t>(g.size()), 1);
-    const auto closed = closed_links(g, free, {wall({4, -1}, {4, 8})}, {0, 0, g.nx, g.ny});
+    const auto closed = closed_steps(g, free, {wall({4, -1}, {4, 8})}, {0, 0, g.nx, g.ny});
     for (std::int64_t c = 0; c < g.size(); ++c) {
         for (unsigned k = 0; k < 8; ++k) {
             const std::int32_t x = g.ix(c) + around_dx[k];
@@ -178,13 +178,13 @@ TEST(ClosedLinks, WindowsOfOwnersAddUpToTheWhole) {
         for (int k = 0; k < 8; ++k) {
             walls.push_back(wall({place(random), place(random)}, {place(random), place(random)}));
         }
-        const auto whole = closed_links(g, free, walls, {0, 0, g.nx, g.ny});
+        const auto whole = closed_steps(g, free, walls, {0, 0, g.nx, g.ny});
         Raster<std::uint8_t> sum(whole.size(), 0);
         std::int64_t bits = 0;
         for (std::int32_t y = 0; y < g.ny; y += 6) {
             for (std::int32_t x = 0; x < g.nx; x += 9) {
                 const Window owners{x, y, std::min(x + 9, g.nx), std::min(y + 6, g.ny)};
-                const auto part = closed_links(g, free, walls, owners);
+                const auto part = closed_steps(g, free, walls, owners);
                 for (std::size_t c = 0; c < sum.size(); ++c) {
                     EXPECT_EQ(sum[c] & part[c], 0) << "noted twice";
                     sum[c] = static_cast<std::uint8_t>(sum[c] | part[c]);

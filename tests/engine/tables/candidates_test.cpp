@@ -157,7 +157,7 @@ TEST(Candidates, NeighboursAlongRidgesOverlapEnough) {
         const World& w = *site.world;
         const Lines g = w.ridges();
         const CandidateResult r = w.candidates(g, site.options);
-        EXPECT_EQ(r.ridges_short_of_overlap, 0);
+        EXPECT_EQ(r.arcs_short_of_overlap, 0);
         std::set<std::int64_t> chosen;
         for (const Candidate& c : r.candidates) {
             if (c.kind <= split) chosen.insert(c.cell);

@@ -48,7 +48,7 @@ struct CandidateResult {
     // Of the search, as summary.json has them.
     std::int64_t joints = 0;
     std::int64_t ridges = 0;
-    std::int64_t ridges_short_of_overlap = 0;
+    std::int64_t arcs_short_of_overlap = 0;
     std::int64_t rescued_pieces = 0;
     std::int64_t components_before = 0;
     std::int64_t components = 0;
@@ -69,7 +69,7 @@ inline CandidateResult read_result(const std::filesystem::path& file) {
     const auto search = nlohmann::json::parse(tables.summary).at("candidate_search");
     search.at("joints").get_to(out.joints);
     search.at("ridges").get_to(out.ridges);
-    search.at("ridges_short_of_overlap").get_to(out.ridges_short_of_overlap);
+    search.at("arcs_short_of_overlap").get_to(out.arcs_short_of_overlap);
     search.at("rescued_pieces").get_to(out.rescued_pieces);
     search.at("components_before_connectors").get_to(out.components_before);
     search.at("components").get_to(out.components);
@@ -94,7 +94,7 @@ inline void expect_same(const CandidateResult& a, const CandidateResult& b) {
                   std::tuple(q.piece, q.fraction, q.angle_rad));
     }
     EXPECT_EQ(a.status, b.status);
-    EXPECT_EQ(a.ridges_short_of_overlap, b.ridges_short_of_overlap);
+    EXPECT_EQ(a.arcs_short_of_overlap, b.arcs_short_of_overlap);
     EXPECT_EQ(a.rescued_pieces, b.rescued_pieces);
     EXPECT_EQ(a.components_before, b.components_before);
     EXPECT_EQ(a.components, b.components);

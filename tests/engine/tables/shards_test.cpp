@@ -100,7 +100,7 @@ TEST(Tiles, ClosedLinksAreThoseOfTheWholeGrid) {
     const World w(s, {box_ring(0, 0, 100, 70)}, thin);
     ASSERT_GT(w.layout.patches(), 4);
     ASSERT_GT(w.layout.tiles(), 2);
-    const auto whole = closed_links(w.grid, w.standable, w.walls, w.whole_grid());
+    const auto whole = closed_steps(w.grid, w.standable, w.walls, w.whole_grid());
     for (std::int64_t c = 0; c < w.grid.size(); ++c) {
         EXPECT_EQ(w.closed[static_cast<std::size_t>(c)], whole[static_cast<std::size_t>(c)])
             << w.grid.ix(c) << ", " << w.grid.iy(c);

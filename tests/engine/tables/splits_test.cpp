@@ -48,7 +48,7 @@ TEST(Splitting, MiddlesUntilNeighboursOverlapEnough) {
             insert_middles(w, o, cells, 0, half, want);
             insert_middles(w, o, cells, half, cells.size() - 1, want);
             EXPECT_EQ(cells_of(r.candidates, split), std::vector(want.begin(), want.end()));
-            EXPECT_EQ(r.ridges_short_of_overlap, 0);
+            EXPECT_EQ(r.arcs_short_of_overlap, 0);
             last = std::max(last, want.size());
         }
     }
@@ -70,7 +70,7 @@ TEST(Splitting, NoSplitWhereOverlapIsEnough) {
     const World w = hall();
     const CandidateResult whole = w.candidates(between_joints(w, 4, 16, 5), overlap_of(0.9));
     EXPECT_EQ(whole.candidates.size(), 2U);  // both see all of the hall
-    EXPECT_EQ(whole.ridges_short_of_overlap, 0);
+    EXPECT_EQ(whole.arcs_short_of_overlap, 0);
     // The threshold itself is enough.
     World::Setting s;
     s.scanner.range_max_m = 9;
@@ -129,7 +129,7 @@ TEST(Splitting, RingsAreSplitAllTheWayRound) {
         {{{10, 6}, {30, 6}, {34, 10}, {34, 30}, {30, 34}, {10, 34}, {6, 30}, {6, 10}, {10, 6}}});
     ASSERT_TRUE(g.ridges[0].ring);
     const CandidateResult r = w.candidates(g, overlap_of(0.5));
-    EXPECT_EQ(r.ridges_short_of_overlap, 0);
+    EXPECT_EQ(r.arcs_short_of_overlap, 0);
     std::set<std::int64_t> chosen;
     for (const Candidate& c : r.candidates) chosen.insert(c.cell);
     std::vector<OverlapRow> rows;
@@ -158,7 +158,7 @@ std::pair<std::int64_t, std::size_t> split_blindly(std::int32_t cells) {
     for (const Candidate& c : r.candidates) {
         if (w.grid.iy(c.cell) == w.grid.iy(lines.joints[0])) on_path.insert(c.cell);
     }
-    return {r.ridges_short_of_overlap, on_path.size()};
+    return {r.arcs_short_of_overlap, on_path.size()};
 }
 
 TEST(Splitting, StopsAtTwoCellsOrDepthSixteenAndIsFlagged) {
@@ -173,7 +173,7 @@ TEST(Splitting, OnlyTheRidgeThatFallsShortIsFlagged) {
     const World w{{}, {box_ring(0, 0, 10, 10), box_ring(10.5, 0, 20, 10)}};
     const CandidateResult r =
         w.candidates(w.drawn({{{5, 5}, {15, 5}}, {{3, 8}, {8, 8}}}), overlap_of(0.3));
-    EXPECT_EQ(r.ridges_short_of_overlap, 1);
+    EXPECT_EQ(r.arcs_short_of_overlap, 1);
     EXPECT_EQ(r.ridges, 2);
 }
 
