@@ -59,10 +59,10 @@ bench-check: bench-build  ## fail when benchmarks got worse than bench/baseline.
 bench-counts: bench-build  ## the same without times: answers and counts of operations (CI)
 	@bench/check.py --counts
 
-scaling: bench-build  ## threads, crops, city windows: runs/scaling/summary.md, CSV, plot (some minutes)
+scaling: bench-build  ## threads, crops, city windows: runs/scaling/summary.md, CSV, plot (ten minutes)
 	@bench/scaling.py --program build/bench/vfplan
 
-area: program  ## windows of a city and a county: memory and time by stage (half an hour)
+area: program  ## windows of a city and a county: memory and time by stage (a quarter of an hour)
 	@bench/area.py --program $(VFPLAN)
 
 check-format:  ## fail when clang-format would change a source

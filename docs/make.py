@@ -67,8 +67,7 @@ def table_rows():
             files = re.findall(r"(?:work/\.\.\./|shards/)?[\w-]+\.h5", comment)
             if phase:
                 title = phase.group(1)
-                files = ", ".join(f.split("/")[-1] if "shards/" not in f else f for f in files)
-                files = files if "shards/" in files else "work/" + files.replace(", ", ", work/")
+                files = ", ".join(f.replace("/.../", "/tiles-SIDE/") for f in files)
             else:
                 title = "tables"
                 files = "field.h5" if "field" in name else "coverage.h5"
@@ -116,18 +115,18 @@ def picture():
     step, top, left = 30, 56, 190
     y = [top + step * i + (24 if i >= gap else 0) for i in range(len(rows))]
     height = y[-1] + step + 10
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="1120" height="{height}" '
-           f'viewBox="0 0 1120 {height}" font-family="DejaVu Sans, Verdana, sans-serif" '
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="1180" height="{height}" '
+           f'viewBox="0 0 1180 {height}" font-family="DejaVu Sans, Verdana, sans-serif" '
            'font-size="12">',
-           f'<rect width="1120" height="{height}" fill="#ffffff"/>']
+           f'<rect width="1180" height="{height}" fill="#ffffff"/>']
 
     def text(x, at, words, colour="#222226", extra=""):
         out.append(f'<text x="{x}" y="{at}" fill="{colour}" {extra}>{html.escape(words)}</text>')
 
-    for x, words in ((left, "phase or stage"), (left + 140, "made by"), (left + 420, "leaves")):
+    for x, words in ((left, "phase or stage"), (left + 140, "made by"), (left + 470, "leaves")):
         text(x, 24, words, "#5c5c62", 'font-style="italic"')
     text(12, top - 14, "from a site to its tables", extra='font-weight="bold"')
-    text(12, y[gap] - 14, "from tables to files", extra='font-weight="bold"')
+    text(12, y[gap] + 38, "from tables to files", extra='font-weight="bold"')
     for a, b in arcs:
         reach = min(150, 14 + 11 * (b - a))
         out.append(f'<path d="M {left - 8} {y[a] + 8} C {left - 8 - reach} {y[a] + 8}, '
@@ -140,7 +139,7 @@ def picture():
         text(left + 8, y[i] + 7, row.title, extra='font-weight="bold"')
         text(left + 140, y[i] + 3, row.call, extra='font-size="11"')
         text(left + 140, y[i] + 15, row.where, "#7c7c84", 'font-size="9"')
-        text(left + 420, y[i] + 7, row.files, "#3c5a2c", 'font-size="10"')
+        text(left + 470, y[i] + 7, row.files, "#3c5a2c", 'font-size="10"')
     out.append("</svg>")
     return "\n".join(out) + "\n"
 

@@ -63,7 +63,7 @@ foreach(path IN LISTS paths)
            AND NOT level_${other} LESS level_${room})
             string(APPEND problems "  ${path} includes ${included}: ${room} may not know ${other} "
                 "(configs/cmake/rooms.txt)\n")
-        elseif(DEFINED level_${room} AND included MATCHES "^\\.\\.?/")
+        elseif(DEFINED level_${room} AND included MATCHES "(^|/)\\.\\.?/")
             string(APPEND problems "  ${path} includes ${included}: paths begin at the root\n")
         endif()
         if(folder STREQUAL kernels AND included MATCHES "${unknown_to_kernels}")

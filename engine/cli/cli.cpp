@@ -40,7 +40,7 @@ All parameters: docs/parameters.md or vfplan parameters; any of them: --set scan
 
 constexpr const char* exit_codes =
     "Exit codes: 0 done; 1 verify said no; 2 usage or configuration; 3 input data; 4 reading or "
-    "writing; 75 stopped early, resumable.\n"
+    "writing; 70 a fault of the program; 75 stopped early, resumable.\n"
     "VFPLAN_ISA=sse2|sse4.2|avx|avx2|avx512 holds the kernels to an instruction set.";
 
 // Options that several commands share.
@@ -75,7 +75,7 @@ void add_job(CLI::App& app, Shared& s) {
     add_job_and_out(app, s);
     app.add_flag("--fresh", s.fresh, "Make everything again; default: go on where a run stopped");
     app.add_flag("--dry-run", s.dry_run,
-                 "Check the job and the site, print cells, memory and disk");
+                 "Check the job and the site, print cells, memory, disk and time");
     add_common(app, s);
 }
 
@@ -181,7 +181,7 @@ int dispatch(int argc, char** argv, const Ranks& ranks) {
     CLI::App* plan = app.add_subcommand(
         "plan", "Plans again from a run directory's tables alone, without geometry");
     plan->add_option("DIR", s.dir, "Run directory")->required();
-    add_sets(*plan, s, "Replaces a parameter of plan, overlap or output");
+    add_sets(*plan, s, "Replaces plan.method, plan.loops, overlap.* or output.*");
     add_common(*plan, s);
     CLI::App* check = app.add_subcommand(
         "verify", "Looks again from every station with the exact kernel; says yes or no");
@@ -217,7 +217,15 @@ int dispatch(int argc, char** argv, const Ranks& ranks) {
     if (precompute->parsed()) return run_or_precompute(s, false, ranks);
     if (!ranks.leader()) return 0;  // the other commands are for one process
     if (check->parsed()) return verify(s);
-    if (make->parsed()) return generate(site, site_out);
+    if (make->parsed()) {
+        for (const auto& [option, kind] : {std::pair("--rooms", "flat"), {"--size-km", "city"}}) {
+            if (make->count(option) > 0 && site.kind != kind) {
+                throw UsageError(
+                    fmt::format("{} is for generate {} only; leave it out", option, kind));
+            }
+        }
+        return generate(site, site_out);
+    }
     if (queue->parsed()) return submit_job(s, slurm, print);
     if (list->parsed()) {
         fmt::print("{}", parameters_markdown());

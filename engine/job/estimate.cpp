@@ -100,13 +100,13 @@ std::string estimate_text(const Estimate& e, const Config& config, const Threads
     return fmt::format(
         "cells        {} of {} m, {} of them free\n"
         "pieces       {}\n"
-        "candidates   about {}, with {} rows' entries\n"
+        "candidates   about {}, which see {} pieces in all\n"
         "memory       about {:.0f} MB a process\n"
         "disk         about {:.0f} MB, and {:.0f} MB more while it runs\n"
-        "time         about {} with {} threads\n"
+        "time         about {} with {} thread{}\n"
         "The job is valid; nothing was written.\n",
         e.cells, config.field.cell_m, e.free_cells, e.pieces, e.candidates, e.entries, e.memory_mb,
-        e.disk_mb, e.working_mb, span(e.wall_s), threads.count());
+        e.disk_mb, e.working_mb, span(e.wall_s), threads.count(), threads.count() == 1 ? "" : "s");
 }
 
 }  // namespace vfplan

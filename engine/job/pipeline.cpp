@@ -141,9 +141,10 @@ std::string plan_again(const std::filesystem::path& path, const std::vector<std:
     for (const std::string& s : overrides) {
         const std::string key = s.substr(0, s.find('='));
         for (const Parameter& p : parameters(any)) {
-            if (p.key() != key || p.stale != Stale::tables || p.section == "overlap") continue;
+            if (p.key() != key || p.section == "overlap" || p.section == "output") continue;
+            if (p.stale == Stale::plan) continue;
             throw UsageError(
-                fmt::format("--set {}: plan works from finished tables, and {} changes "
+                fmt::format("--set {}: plan works from finished tables, and {} belongs to "
                             "those; use run with another --out",
                             s, key));
         }

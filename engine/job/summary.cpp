@@ -34,7 +34,8 @@ std::string apart_text(const Planned& p, const Config& config) {
         return fmt::format("{} network{}", n, n == 1 ? "" : "s");
     };
     std::string out = fmt::format(
-        "apart        {} pieces are seen from {} besides only (network_list in summary.json)\n",
+        "apart        {} pieces are seen from {} only, not from the main one (network_list in "
+        "summary.json)\n",
         m.pieces_unreached, networks(m.networks - 1));
     if (enclosed > 0) {
         out += fmt::format(

@@ -8,7 +8,7 @@
 
 namespace vfplan {
 
-// Phase "components": work/.../components-TILE.h5, and components.h5 with the component of each
+// Phase "components": work/.../components-NUMBER.h5, and components.h5 with the component of each
 // candidate, numbered by their first candidate.
 Components make_components(const TableJob& job, const CandidateList& candidates,
                            const OverlapRule& rule);

@@ -7,7 +7,7 @@
 
 namespace vfplan {
 
-// Phase "field": shards/field-SIDE-TILE.h5.
+// Phase "field": shards/field-SIDE-NUMBER.h5.
 FieldTiles make_field(const TableJob& job, const SiteStore& site);
 
 }  // namespace vfplan

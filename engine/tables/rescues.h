@@ -19,7 +19,7 @@ struct Rescued {
 
 // Phase "rescues": for every piece that neither joints nor splits cover the best cell that sees
 // enough of it, in the order of docs/method.md 4; `threshold_rad` bounds the domain:
-// work/.../rescues-TILE.h5. Then the list of all candidates, of rescue cells the fewest in the
+// work/.../rescues-NUMBER.h5. Then the list of all candidates, of rescue cells the fewest in the
 // order of pieces: work/.../rescues.h5.
 Rescued make_rescues(const TableJob& job, const SiteStore& site, const FieldTiles& field,
                      const FoundTiles& joints, const FoundTiles& splits,

@@ -7,7 +7,7 @@
 
 namespace vfplan {
 
-// Phase "skeleton": work/.../skeleton-TILE.h5. The same cells as if the whole grid had been thinned
+// Phase "skeleton": work/.../skeleton-NUMBER.h5. The same cells as if the whole grid had been thinned
 // at once: a tile is thinned with so much around it that the fate of each of its cells is certain.
 SkeletonTiles make_skeleton(const TableJob& job, const FieldTiles& field, double threshold_rad);
 

@@ -13,7 +13,7 @@
 
 namespace vfplan {
 
-// Phase "splits": work/.../splits-TILE.h5. Ends of ridges that cover what no joint does; along
+// Phase "splits": work/.../splits-NUMBER.h5. Ends of ridges that cover what no joint does; along
 // every ridge, while two neighbours do not overlap enough, the arc's middle, down to 2 cells or
 // depth 16. What the user's points cover is noted with their tile's. `pieces`: how many the site
 // has.

@@ -52,6 +52,7 @@ expect(refused io/a.cpp                "#include \"io/site/b.h\"")
 expect(refused io/site/a.cpp           "#include \"io/tables/b.h\"")
 expect(refused io/tables/a.cpp         "#include \"io/exports/b.h\"")
 expect(refused engine/tables/a.cpp     "#include \"../job/b.h\"")
+expect(refused engine/plan/a.cpp       "#include \"engine/../job/b.h\"")
 expect(no_room engine/attic/a.cpp      "#include <vector>")
 
 expect(refused kernels/a.cpp           "#include <thread>")
