@@ -33,7 +33,7 @@ Scene make_scene(const std::string& name, const std::string& job, const std::str
                            {"site.input=" + site});
     s.site = read_site(s.config.site.input, ground_options(s.config).site).site;
     s.layout = layout_of(ground_options(s.config), s.site);
-    s.standable = free_cells(s.grid(), s.site.free_region);
+    s.standable = free_cells(s.grid(), s.site.free_border);
     return s;
 }
 

@@ -128,7 +128,7 @@ std::int64_t count_set(const Raster<std::uint8_t>& r) { return std::count(r.begi
 
 void stage_free_cells(benchmark::State& state, const std::string& site) {
     const Made& m = made(site);
-    timed(state, [&] { return count_set(free_cells(m.scene->grid(), m.scene->site.free_region)); });
+    timed(state, [&] { return count_set(free_cells(m.scene->grid(), m.scene->site.free_border)); });
     per_item(state, "cells", m.scene->grid().size());
 }
 

@@ -33,43 +33,33 @@ Grid make_grid(const Box& extent, double cell_m, double snap_m) {
     return grid;
 }
 
-bool inside_odd(const std::vector<Ring>& rings, const Vec2d& p) {
+bool inside_odd(const std::vector<Border>& border, const Vec2d& p) {
     bool inside = false;
-    for (const Ring& ring : rings) {
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            const Vec2d& a = ring[i];
-            const Vec2d& b = ring[(i + 1) % ring.size()];
-            if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-            if (p.x() < a.x() + (b.x() - a.x()) * ((p.y() - a.y()) / (b.y() - a.y()))) {
-                inside = !inside;
-            }
-        }
+    for (const auto& [a, b] : border) {
+        if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+        if (p.x() < a.x() + (b.x() - a.x()) * ((p.y() - a.y()) / (b.y() - a.y()))) inside = !inside;
     }
     return inside;
 }
 
-Raster<std::uint8_t> free_cells(const Grid& grid, const std::vector<Ring>& free_region) {
-    // Every edge flips all cells to the right of it in the rows whose centre it passes.
+Raster<std::uint8_t> free_cells(const Grid& grid, const std::vector<Border>& border) {
+    // Every piece flips all cells to the right of it in the rows whose centre it passes.
     Raster<std::uint8_t> flips(static_cast<std::size_t>(grid.size()), 0);
-    for (const Ring& ring : free_region) {
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            Vec2d a = ring[i];
-            Vec2d b = ring[(i + 1) % ring.size()];
-            if (a.y() == b.y()) continue;
-            if (a.y() > b.y()) std::swap(a, b);
-            const double from = (a.y() - grid.origin.y()) / grid.cell_m - 0.5;
-            const double to = (b.y() - grid.origin.y()) / grid.cell_m - 0.5;
-            const auto row_from = static_cast<std::int32_t>(std::max(0.0, std::ceil(from)));
-            const auto row_to =
-                static_cast<std::int32_t>(std::min(static_cast<double>(grid.ny), std::ceil(to)));
-            for (std::int32_t iy = row_from; iy < row_to; ++iy) {
-                const double y = grid.origin.y() + grid.cell_m * (iy + 0.5);
-                const double x = a.x() + (b.x() - a.x()) * ((y - a.y()) / (b.y() - a.y()));
-                const double column = std::ceil((x - grid.origin.x()) / grid.cell_m - 0.5);
-                if (column >= grid.nx) continue;
-                const auto ix = static_cast<std::int32_t>(std::max(0.0, column));
-                flips[static_cast<std::size_t>(grid.id(ix, iy))] ^= 1;
-            }
+    for (auto [a, b] : border) {
+        if (a.y() == b.y()) continue;
+        if (a.y() > b.y()) std::swap(a, b);
+        const double from = (a.y() - grid.origin.y()) / grid.cell_m - 0.5;
+        const double to = (b.y() - grid.origin.y()) / grid.cell_m - 0.5;
+        const auto row_from = static_cast<std::int32_t>(std::max(0.0, std::ceil(from)));
+        const auto row_to =
+            static_cast<std::int32_t>(std::min(static_cast<double>(grid.ny), std::ceil(to)));
+        for (std::int32_t iy = row_from; iy < row_to; ++iy) {
+            const double y = grid.origin.y() + grid.cell_m * (iy + 0.5);
+            const double x = a.x() + (b.x() - a.x()) * ((y - a.y()) / (b.y() - a.y()));
+            const double column = std::ceil((x - grid.origin.x()) / grid.cell_m - 0.5);
+            if (column >= grid.nx) continue;
+            const auto ix = static_cast<std::int32_t>(std::max(0.0, column));
+            flips[static_cast<std::size_t>(grid.id(ix, iy))] ^= 1;
         }
     }
     for (std::int32_t iy = 0; iy < grid.ny; ++iy) {

@@ -14,12 +14,13 @@ namespace vfplan {
 // along an axis.
 Grid make_grid(const Box& extent, double cell_m, double snap_m);
 
-// True inside an odd number of rings.
-bool inside_odd(const std::vector<Ring>& rings, const Vec2d& p);
+// True where a border of closed rings surrounds a point an odd number of times.
+bool inside_odd(const std::vector<Border>& border, const Vec2d& p);
 
-// 1 where the cell's centre lies inside an odd number of rings, else 0.
-// Time O(cells + edges x rows they span).
-Raster<std::uint8_t> free_cells(const Grid& grid, const std::vector<Ring>& free_region);
+// 1 where a border surrounds the cell's centre an odd number of times, else 0. What lies beyond the
+// grid to the east, north or south may be left out of the border. Time O(cells + pieces of border x
+// rows they span).
+Raster<std::uint8_t> free_cells(const Grid& grid, const std::vector<Border>& border);
 
 // 1 for cells whose centre is nearer to a wall than clearance_m; all 0 for a clearance of 0.
 Raster<std::uint8_t> cells_near_walls(const Grid& grid, const std::vector<Wall>& walls,

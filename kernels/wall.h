@@ -36,11 +36,26 @@ struct Wall {
 // A closed ring; the first point is not repeated.
 using Ring = std::vector<Vec2d>;
 
+// A straight piece of the border of an area.
+struct Border {
+    Vec2d a;
+    Vec2d b;
+};
+inline std::vector<Border> border_of(const std::vector<Ring>& rings) {
+    std::vector<Border> border;
+    for (const Ring& ring : rings) {
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            border.push_back({ring[i], ring[(i + 1) % ring.size()]});
+        }
+    }
+    return border;
+}
+
 // What was done to the input, in counts of what it was done to.
 struct CleaningCounts {
     std::int64_t features = 0;  // features read
     std::int64_t ignored = 0;   // features of a class or geometry that makes no wall
-    std::int64_t repaired = 0;  // invalid polygons made valid (site.invalid = "repair")
+    std::int64_t repaired = 0;  // polygons that cross themselves, read as what they surround
     std::int64_t dropped_invalid =
         0;                           // polygons without area, or invalid with site.invalid = "drop"
     std::int64_t outside_crop = 0;   // features left out by crop_m
@@ -50,6 +65,7 @@ struct CleaningCounts {
     std::int64_t split = 0;          // extra edges made where edges cross or touch
     std::int64_t merged = 0;         // edges joined to a collinear neighbour
     std::int64_t inside_solids = 0;  // edges dropped because both sides are solid
+    std::int64_t slivers = 0;        // edges dropped that areas thinner than the snap leave
     std::int64_t walls = 0;          // walls in the end
 
     CleaningCounts& operator+=(const CleaningCounts& o) {
@@ -64,9 +80,25 @@ struct CleaningCounts {
         split += o.split;
         merged += o.merged;
         inside_solids += o.inside_solids;
+        slivers += o.slivers;
         walls += o.walls;
         return *this;
     }
+};
+
+// Why ground inside a building is none for stations.
+enum class DropReason : std::uint8_t { narrow = 0, unnamed = 1 };
+template <>
+struct Names<DropReason> {
+    static constexpr std::array<std::string_view, 2> all = {"narrow", "unnamed"};
+};
+
+// A part of the inside that is no ground, or whose walls' faces nobody can see from the ground.
+struct Dropped {
+    Vec2d at;  // a place in it
+    DropReason why = DropReason::narrow;
+    double area_m2 = 0;
+    double faces_m = 0;  // length of faces around it that need no scan, each wall's side for itself
 };
 
 // A cleaned site. Coordinates are metres in the site's frame: input coordinates minus `origin`
@@ -74,11 +106,13 @@ struct CleaningCounts {
 struct Site {
     Vec2d origin{0, 0};
     std::vector<Wall> walls;
-    std::vector<Ring> free_region;  // even-odd: a point inside an odd number of rings is free
-    Box extent;                     // what the grid covers
-    std::int64_t buildings = 0;     // solid polygons (outdoor) or named rooms / faces (indoor)
-    double area_m2 = 0;             // built area (outdoor) or floor area (indoor)
-    std::string crs_wkt;            // empty when the input has none
+    std::vector<Border> free_border;  // even-odd: what an odd number of times is surrounded is free
+    Box extent;                       // what the grid covers
+    std::int64_t buildings = 0;       // solid polygons (outdoor) or named rooms / spaces (indoor)
+    double area_m2 = 0;               // built area (outdoor) or floor area (indoor)
+    std::vector<Dropped> dropped;     // indoors, the largest first
+    std::vector<Vec2d> repaired_at;   // a place each where a polygon crosses itself
+    std::string crs_wkt;              // empty when the input has none
     CleaningCounts counts;
 };
 

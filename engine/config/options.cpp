@@ -23,6 +23,10 @@ GroundOptions ground_options(const Config& c) {
     o.site.doors = c.site.doors;
     o.site.windows = c.site.windows;
     o.site.invalid = c.site.invalid;
+    o.site.max_opening_m = c.site.max_opening_m;
+    o.site.min_width_m = c.site.min_width_m;
+    o.site.min_room_m2 = c.site.min_room_m2;
+    o.site.max_gap_m2 = c.site.max_gap_m2;
     o.forbidden = c.plan.forbidden;
     o.required = c.plan.required;
     o.existing = c.plan.existing;

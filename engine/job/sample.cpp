@@ -80,10 +80,11 @@ Site part_of_site(const Site& site, const Box& box, double range_m) {
     };
     std::erase_if(out.walls,
                   [&](const Wall& w) { return !meets(w.a.cwiseMin(w.b), w.a.cwiseMax(w.b)); });
-    std::erase_if(out.free_region, [&](const Ring& ring) {
-        Box b;
-        for (const Vec2d& p : ring) b.add(p);
-        return !meets(b.min, b.max);
+    // A piece in the north, south or east of all cells is crossed by no count of theirs.
+    std::erase_if(out.free_border, [&](const Border& piece) {
+        return std::min(piece.a.y(), piece.b.y()) > around.max.y() ||
+               std::max(piece.a.y(), piece.b.y()) < around.min.y() ||
+               std::min(piece.a.x(), piece.b.x()) > around.max.x();
     });
     return out;
 }

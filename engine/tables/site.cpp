@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<Ring> forbidden_rings(const GroundOptions& o, const Site& site) {
+std::vector<Border> forbidden_border(const GroundOptions& o, const Site& site) {
     if (o.forbidden.empty()) return {};
     std::vector<Polygon> polygons;
     for (Feature& f :
@@ -29,15 +29,15 @@ std::vector<Ring> forbidden_rings(const GroundOptions& o, const Site& site) {
         each_point(f, [&](Vec2d& v) { v -= site.origin; });
         for (Polygon& p : f.polygons) polygons.push_back(std::move(p));
     }
-    return rings_of_union(polygons, o.site.snap_m);
+    return border_of_union(polygons, o.site.snap_m);
 }
 
 void check_points(const std::vector<Vec2d>& points, const Site& site,
-                  const std::vector<Ring>& forbidden, const char* key) {
+                  const std::vector<Border>& forbidden, const char* key) {
     for (const Vec2d& point : points) {
         const Vec2d at = point - site.origin;
         const char* why = nullptr;
-        if (!site.extent.contains(at) || !inside_odd(site.free_region, at)) {
+        if (!site.extent.contains(at) || !inside_odd(site.free_border, at)) {
             why = "it is not in free space";
         } else if (inside_odd(forbidden, at)) {
             why = "plan.forbidden covers it";
@@ -51,12 +51,36 @@ void check_points(const std::vector<Vec2d>& points, const Site& site,
     }
 }
 
+// What is left out of the inside, the largest pieces one by one.
+Json dropped_summary(const Site& site) {
+    constexpr std::size_t most = 20;
+    Json list = Json::array();
+    for (std::size_t i = 0; i < std::min(most, site.dropped.size()); ++i) {
+        const Dropped& d = site.dropped[i];
+        list.push_back({{"x", d.at.x() + site.origin.x()},
+                        {"y", d.at.y() + site.origin.y()},
+                        {"why", name_of(d.why)},
+                        {"area_m2", d.area_m2},
+                        {"faces_m", d.faces_m}});
+    }
+    return list;
+}
+
 Json site_summary(const Site& site) {
+    double ground_m2 = 0;
+    double faces_m = 0;
+    for (const Dropped& d : site.dropped) {
+        ground_m2 += d.area_m2;
+        faces_m += d.faces_m;
+    }
     return {{"buildings", site.buildings},
             {"walls", site.walls.size()},
             {"area_m2", site.area_m2},
             {"width_m", site.extent.size().x()},
             {"height_m", site.extent.size().y()},
+            {"ground_dropped_m2", ground_m2},
+            {"faces_dropped_m", faces_m},
+            {"dropped", dropped_summary(site)},
             {"cleaning",
              {{"features", site.counts.features},
               {"ignored", site.counts.ignored},
@@ -68,17 +92,17 @@ Json site_summary(const Site& site) {
               {"duplicates", site.counts.duplicates},
               {"split", site.counts.split},
               {"merged", site.counts.merged},
-              {"inside_solids", site.counts.inside_solids}}}};
+              {"inside_solids", site.counts.inside_solids},
+              {"slivers", site.counts.slivers}}}};
 }
 
-// Rings that a band of rows may cross.
-std::vector<Ring> rings_in(const std::vector<Ring>& rings, double y_min, double y_max) {
-    std::vector<Ring> out;
-    for (const Ring& ring : rings) {
-        const auto [low, high] = std::minmax_element(
-            ring.begin(), ring.end(), [](const Vec2d& a, const Vec2d& b) { return a.y() < b.y(); });
-        if (ring.empty() || low->y() > y_max || high->y() < y_min) continue;
-        out.push_back(ring);
+// Pieces of a border that a band of rows may cross.
+std::vector<Border> pieces_in(const std::vector<Border>& border, double y_min, double y_max) {
+    std::vector<Border> out;
+    for (const Border& piece : border) {
+        if (std::min(piece.a.y(), piece.b.y()) > y_max) continue;
+        if (std::max(piece.a.y(), piece.b.y()) < y_min) continue;
+        out.push_back(piece);
     }
     return out;
 }
@@ -118,7 +142,7 @@ Layout layout_of(const GroundOptions& o, const Site& site) {
 std::vector<std::vector<std::uint8_t>> standable_bits(const GroundOptions& o, const Site& site,
                                                       const Layout& layout,
                                                       const Threads& threads) {
-    const std::vector<Ring> forbidden = forbidden_rings(o, site);
+    const std::vector<Border> forbidden = forbidden_border(o, site);
     std::vector<std::vector<std::uint8_t>> out(idx(layout.patches()));
     threads.for_each(layout.patch_rows(), 1, [&](std::int64_t from, std::int64_t to) {
         for (std::int64_t row = from; row < to; ++row) {
@@ -128,9 +152,9 @@ std::vector<std::vector<std::uint8_t>> standable_bits(const GroundOptions& o, co
             const Grid grid = part_of(layout.grid, band);
             const double y_min = grid.origin.y();
             const double y_max = y_min + grid.cell_m * grid.ny;
-            Raster<std::uint8_t> free = free_cells(grid, rings_in(site.free_region, y_min, y_max));
+            Raster<std::uint8_t> free = free_cells(grid, pieces_in(site.free_border, y_min, y_max));
             const Raster<std::uint8_t> kept_out =
-                free_cells(grid, rings_in(forbidden, y_min, y_max));
+                free_cells(grid, pieces_in(forbidden, y_min, y_max));
             std::vector<Wall> near;
             if (const double clear = o.clearance_m; clear > 0) {
                 for (const Wall& w : site.walls) {
@@ -169,7 +193,7 @@ Site read_ground(const GroundOptions& o, const Threads& threads, Progress& progr
     for (const std::string& w : read.warnings) progress.warn(w);
     progress.note(site_text(read.site));
     if (!o.required.empty()) {
-        check_points(o.required, read.site, forbidden_rings(o, read.site), "plan.required");
+        check_points(o.required, read.site, forbidden_border(o, read.site), "plan.required");
     }
     check_points(o.existing, read.site, {}, "plan.existing");
     return std::move(read.site);

@@ -18,11 +18,6 @@ std::string invalid_reason(const Polygon& polygon);
 // The valid polygons that an invalid one covers.
 std::vector<Polygon> repaired(const Polygon& polygon);
 
-// Groups of boxes that come within `near_m` of each other, directly or over others, each ascending.
-// What is further apart than a few snaps meets in no overlay, so groups may be worked on one by
-// one.
-std::vector<std::vector<std::size_t>> neighbour_groups(const std::vector<Box>& boxes,
-                                                       double near_m);
 Box bounds(const Line& points);
 
 std::vector<Polygon> unite(const std::vector<Polygon>& polygons, double snap_m);
@@ -41,8 +36,8 @@ std::vector<Polygon> strips(const std::vector<Line>& lines, double distance_m, b
 // Splits lines at every crossing and touch, drops repeated stretches.
 std::vector<Line> node(const std::vector<Line>& lines, double snap_m);
 
-// Radius of the largest circle inside.
-double inscribed_radius(const Polygon& polygon);
+// Radius of the largest circle that fits into what the lines surround, to within `tolerance`.
+double inscribed_radius(const std::vector<Line>& border, double tolerance);
 
 double area_m2(const std::vector<Polygon>& polygons);
 

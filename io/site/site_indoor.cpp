@@ -1,152 +1,243 @@
 #include "io/site/site_indoor.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <unordered_map>
 
-#include "io/site/planar.h"
-#include "io/site/site_walls.h"
+#include "io/site/ground.h"
+#include "io/site/subdivision.h"
+#include "kernels/index.h"
 
 namespace vfplan {
 namespace {
 
-constexpr double doorway_half_m = 0.3;  // how far a doorway reaches to both sides of its line
-constexpr double gap_half_m = 0.6;      // openings up to twice this do not let the outside in
-constexpr double slit_half_m = 0.15;    // narrower is the inside of a wall, no place to stand
-constexpr double beside_line_m = 0.01;  // where the free side of a line wall is looked for
-constexpr double beside_solid_m = 0.1;  // rooms may be drawn a few centimetres off thick walls
-
-void append(std::vector<Polygon>& to, const std::vector<Polygon>& more) {
-    to.insert(to.end(), more.begin(), more.end());
+void add_all(Linework& to, const FeaturesByRole& in, Role role, const Source& source) {
+    for (const Polygon& p : in.polys(role)) to.add(p, source);
+    for (const Line& line : in.line(role)) to.add(line, source);
 }
 
-// True when a two-point line has p and q on different sides and lies between them.
-bool separates(const Line& line, const Vec2d& p, const Vec2d& q) {
-    return orient(line[0], line[1], p) * orient(line[0], line[1], q) < 0 &&
-           orient(p, q, line[0]) * orient(p, q, line[1]) <= 0;
-}
-
-// What lies inside when nothing that names rooms or an outline is given: the ground that a disc
-// of radius gap_half_m cannot reach from outside.
-std::vector<Polygon> enclosed(const std::vector<Line>& walls) {
-    std::vector<Polygon> shells;
-    for (Polygon p : planar::strips(walls, gap_half_m, false)) {
-        p.holes.clear();
-        shells.push_back(std::move(p));
+// What is a wall, by the job's choices about doors and windows.
+Linework wall_linework(const FeaturesByRole& in, const SiteOptions& options) {
+    Linework out(options.snap_m);
+    constexpr Source solid_wall{solid_area, WallClass::wall};
+    for (const Role r : {Role::wall, Role::building}) add_all(out, in, r, solid_wall);
+    add_all(out, in, Role::outline, {outline_area, WallClass::wall});
+    add_all(out, in, Role::obstacle, {obstacle_area, WallClass::obstacle});
+    if (options.windows != WindowMode::opening) {
+        add_all(out, in, Role::window, {solid_area, WallClass::window});
     }
-    return planar::grow(shells, -gap_half_m);
+    if (options.doors == DoorMode::closed) {
+        add_all(out, in, Role::door, {solid_area, WallClass::door});
+    }
+    return out;
 }
 
-// The parts of `space` in which a person could stand: what is left when the walls are grown by
-// half a slit's width, grown back. The inside of doubled walls is gone then, open ends or not.
-std::vector<Polygon> standable(const std::vector<Polygon>& space, const std::vector<Line>& walls,
-                               double snap_m, double radius_m) {
-    std::vector<Polygon> grown;
-    for (const Polygon& core :
-         planar::subtract(space, planar::strips(walls, slit_half_m, false), snap_m)) {
-        if (planar::inscribed_radius(core) < radius_m - slit_half_m) continue;
-        append(grown, planar::grow({core}, slit_half_m));
-    }
-    return planar::intersect(grown, space, snap_m);
+// What parts the ground without being a wall.
+void add_borders(Linework& to, const FeaturesByRole& in, const SiteOptions& options) {
+    add_all(to, in, Role::room, {room_area, {}});
+    add_all(to, in, Role::opening, {line_kind, {}, true});
+    if (options.windows == WindowMode::opening)
+        add_all(to, in, Role::window, {line_kind, {}, true});
+    if (options.doors == DoorMode::open) add_all(to, in, Role::door, {doorway_area, {}, true});
 }
+
+// Places on walls right across from a wall's end that is nearer than `near`, in lattice steps. With
+// nodes there, every bottleneck between walls has an edge of the triangulation across it.
+std::vector<LatticePoint> feet(const std::vector<Noded::Edge>& walls, double near) {
+    using Square = std::pair<std::int64_t, std::int64_t>;
+    const auto square = [&](double v) { return static_cast<std::int64_t>(std::floor(v / near)); };
+    const auto vec = [](const LatticePoint& p) {
+        return Vec2d(static_cast<double>(p.x), static_cast<double>(p.y));
+    };
+    std::map<Square, std::vector<Vec2d>> ends;
+    for (const Noded::Edge& w : walls) {
+        for (const LatticePoint& p : {w.a, w.b}) {
+            const Vec2d v = vec(p);
+            ends[{square(v.x()), square(v.y())}].push_back(v);
+        }
+    }
+    std::vector<LatticePoint> out;
+    for (const Noded::Edge& w : walls) {
+        const Vec2d a = vec(w.a);
+        const Vec2d e = vec(w.b) - a;
+        const Vec2d reach(near, near);
+        const Vec2d lo = vec(w.b).cwiseMin(a) - reach;
+        const Vec2d hi = vec(w.b).cwiseMax(a) + reach;
+        for (std::int64_t x = square(lo.x()); x <= square(hi.x()); ++x) {
+            for (auto at = ends.lower_bound({x, square(lo.y())});
+                 at != ends.end() && at->first <= Square(x, square(hi.y())); ++at) {
+                for (const Vec2d& v : at->second) {
+                    const double t = (v - a).dot(e) / e.squaredNorm();
+                    if (t <= 0 || t >= 1 || (a + t * e - v).squaredNorm() > near * near) continue;
+                    const Vec2d foot = a + t * e;
+                    out.push_back({std::llround(foot.x()), std::llround(foot.y())});
+                }
+            }
+        }
+    }
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+}
+
+// The walls' subdivision with everything else in it that parts ground. Noding moves places by up to
+// half a snap, so walls are not read from it, only what lies at their sides.
+class Plan {
+public:
+    Plan(const Subdivision& walls, const std::vector<EdgeUse>& use, const Linework& drawn,
+         const FeaturesByRole& in, const SiteOptions& options)
+        : options_(options), walls_(walls) {
+        Linework work(options.snap_m);
+        std::vector<std::int32_t> label_of;  // of the linework that walls were made of
+        for (const Source& source : drawn.sources()) {
+            label_of.push_back(work.add({0, 0}, {0, 0}, {source.kind, {}, false}));
+        }
+        first_wall_ = label_of.size();
+        std::vector<Noded::Edge> kept;
+        for (std::size_t e = 0; e < use.size(); ++e) {
+            const Noded::Edge& edge = walls.noded.edges[e];
+            if (use[e].kept) {
+                work.add(edge.a, edge.b, {line_kind, walls.cls[e], false});
+                edge_of_.push_back(e);
+                kept.push_back(edge);
+            }
+        }
+        for (std::size_t e = 0; e < use.size(); ++e) {
+            const Noded::Edge& edge = walls.noded.edges[e];
+            for (const std::int32_t label : walls.noded.labels_of(e)) {
+                if (drawn.sources()[idx(label)].kind != line_kind) {
+                    work.add(edge.a, edge.b, label_of[idx(label)]);
+                }
+            }
+        }
+        add_borders(work, in, options);
+        for (const LatticePoint& p : feet(kept, options.max_opening_m / options.snap_m)) {
+            work.add(p, p, {line_kind, {}, false});
+        }
+        s_ = subdivide(work, 2 * options.max_opening_m);
+        const std::size_t edges = s_.noded.edges.size();
+        wall_.resize(edges);
+        shut_.resize(edges);
+        for (std::size_t e = 0; e < edges; ++e) {
+            wall_[e] = s_.cls[e].has_value();
+            for (const std::int32_t label : s_.noded.labels_of(e)) {
+                if (work.sources()[idx(label)].shut) shut_[e] = true;
+            }
+        }
+    }
+
+    Ground find() const { return find_ground(s_, wall_, shut_, options_); }
+
+    // A wall's side is free where the ground reaches any of it.
+    void set_free_sides(const Ground& ground, std::vector<EdgeUse>& use) const {
+        each_wall_along([&](std::size_t wall, std::size_t e) {
+            const bool same_way = runs_along(walls_.noded.edges[wall], s_.noded.edges[e]);
+            for (const Side side : {left, right}) {
+                if (!ground.reached[idx(s_.triangle_at[e][side])]) continue;
+                use[wall].free[same_way ? side : (side == left ? right : left)] = true;
+            }
+        });
+    }
+
+    // Closed rings around the free triangles. What lies along a wall lies on it, not where noding
+    // put it.
+    std::vector<Border> border(const Ground& ground) const {
+        std::map<LatticePoint, Vec2d> moved;
+        each_wall_along([&](std::size_t wall, std::size_t e) {
+            const Noded::Edge& edge = walls_.noded.edges[wall];
+            for (const LatticePoint& p : {s_.noded.edges[e].a, s_.noded.edges[e].b}) {
+                if (p == edge.a || p == edge.b) continue;
+                const Vec2d a = metres(edge.a);
+                const Vec2d along = metres(edge.b) - a;
+                moved.emplace(p, a + along * ((metres(p) - a).dot(along) / along.squaredNorm()));
+            }
+        });
+        for (const std::size_t wall : edge_of_) {
+            moved.erase(walls_.noded.edges[wall].a);
+            moved.erase(walls_.noded.edges[wall].b);
+        }
+        const auto place = [&](std::int32_t vertex) {
+            const Vec2d& v = s_.triangles.vertices[idx(vertex)];
+            const LatticePoint p{static_cast<std::int64_t>(v.x()),
+                                 static_cast<std::int64_t>(v.y())};
+            const auto known = moved.find(p);
+            return known == moved.end() ? metres(p) : known->second;
+        };
+        std::vector<Border> out;
+        for (std::size_t t = 0; t < s_.triangles.triangles.size(); ++t) {
+            if (!ground.free[t]) continue;
+            const Triangle& triangle = s_.triangles.triangles[t];
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::int32_t to = triangle.neighbour[i];
+                if (to >= 0 && ground.free[idx(to)]) continue;
+                out.push_back(
+                    {place(triangle.vertex[(i + 1) % 3]), place(triangle.vertex[(i + 2) % 3])});
+            }
+        }
+        return out;
+    }
+
+private:
+    // Calls f(edge of the walls' subdivision, edge of this one) where one was led along the other,
+    // and no second: where noding laid walls on each other, near their ends, sides tell nothing.
+    template <class F>
+    void each_wall_along(F&& f) const {
+        for (std::size_t e = 0; e < s_.noded.edges.size(); ++e) {
+            std::size_t walls = 0;
+            std::size_t wall = 0;
+            for (const std::int32_t label : s_.noded.labels_of(e)) {
+                const std::size_t number = idx(label) - first_wall_;
+                if (idx(label) < first_wall_ || number >= edge_of_.size()) continue;
+                ++walls;
+                wall = edge_of_[number];
+            }
+            if (walls == 1) f(wall, e);
+        }
+    }
+    static bool runs_along(const Noded::Edge& wall, const Noded::Edge& e) {
+        return Wide(wall.b.x - wall.a.x) * (e.b.x - e.a.x) +
+                   Wide(wall.b.y - wall.a.y) * (e.b.y - e.a.y) >
+               0;
+    }
+    Vec2d metres(const LatticePoint& p) const {
+        return Vec2d(static_cast<double>(p.x), static_cast<double>(p.y)) * options_.snap_m;
+    }
+
+    const SiteOptions& options_;
+    const Subdivision& walls_;
+    Subdivision s_;
+    std::size_t first_wall_ = 0;
+    std::vector<std::size_t> edge_of_;  // by label, from the first wall's
+    std::vector<bool> wall_;            // by edge
+    std::vector<bool> shut_;
+};
 
 }  // namespace
 
 void build_indoor(const FeaturesByRole& in, const SiteOptions& options, Site& site) {
-    const double snap = options.snap_m;
-    std::vector<Polygon> solids = in.polys(Role::wall);
-    append(solids, in.polys(Role::building));
-    const std::vector<Polygon>& obstacles = in.polys(Role::obstacle);
-    std::vector<Polygon> doorways;
-
-    Blocking blocking;
-    if (options.windows != WindowMode::opening) {
-        blocking.add(in.line(Role::window), WallClass::window);
-        blocking.add_rings(in.polys(Role::window), WallClass::window);
-    }
-    if (options.doors == DoorMode::open) {
-        append(doorways, in.polys(Role::door));
-        append(doorways, planar::strips(in.line(Role::door), doorway_half_m, true));
-    } else {
-        blocking.add(in.line(Role::door), WallClass::door);
-        append(solids, in.polys(Role::door));
-    }
-    if (options.windows != WindowMode::opening) append(solids, in.polys(Role::window));
-    const std::vector<Polygon> solid_walls = planar::unite(solids, snap);
-    const std::vector<Polygon> outlines = planar::unite(in.polys(Role::outline), snap);
-    blocking.add_rings(solid_walls, WallClass::wall);
-    blocking.add_rings(outlines, WallClass::wall);
-    blocking.add(in.line(Role::wall), WallClass::wall);
-    blocking.add(in.line(Role::outline), WallClass::wall);
-    blocking.add(in.line(Role::building), WallClass::wall);
-    blocking.add_rings(obstacles, WallClass::obstacle);
-    blocking.add(in.line(Role::obstacle), WallClass::obstacle);
-
-    std::vector<Polygon> space;
-    if (!outlines.empty()) {
-        space = outlines;
-    } else if (!in.polys(Role::room).empty()) {
-        space = in.polys(Role::room);
-        append(space, doorways);
-    } else {
-        std::vector<Line> closed = blocking.lines;  // everything shut, to tell inside
-        for (const Role r : {Role::door, Role::window, Role::opening}) {
-            closed.insert(closed.end(), in.line(r).begin(), in.line(r).end());
+    const Linework drawn = wall_linework(in, options);
+    const Subdivision walls = subdivide(drawn);
+    count_edges(drawn, walls.noded, site.counts);
+    site.repaired_at = self_crossings(drawn, walls.noded);
+    std::vector<EdgeUse> use = walls_among(walls, site.counts);
+    const Plan plan(walls, use, drawn, in, options);
+    Ground ground = plan.find();
+    plan.set_free_sides(ground, use);
+    site.walls = walls_of(walls, options.snap_m, use, site.counts);
+    for (Wall& wall : site.walls) {
+        if (wall.cls == WallClass::window && options.windows == WindowMode::ignore) {
+            wall.scanned = false;
         }
-        space = enclosed(closed);
-    }
-    std::vector<Polygon> taken = solid_walls;
-    append(taken, obstacles);
-    const std::vector<Polygon> free =
-        standable(planar::subtract(planar::unite(space, snap), taken, snap), blocking.lines, snap,
-                  options.stand_radius_m);
-    site.buildings = static_cast<std::int64_t>(
-        in.polys(Role::room).empty() ? free.size() : in.polys(Role::room).size());
-    site.area_m2 = planar::area_m2(free);
-
-    const planar::Region standing(free);
-    const planar::Region solid(taken);
-    std::vector<Wall> walls = walls_from_lines(blocking, snap, site.counts);
-    std::vector<Line> wall_lines;
-    for (const Wall& wall : walls) wall_lines.push_back({wall.a, wall.b});
-    const planar::LineIndex index(wall_lines);
-    Box box;
-    for (Wall& wall : walls) {
-        const Vec2d e = (wall.b - wall.a).normalized();
-        const Vec2d to_left(-e.y(), e.x());
-        const Vec2d middle = (wall.a + wall.b) / 2;
-        const auto solid_beside = [&](double sign) {
-            return solid.contains(middle + sign * beside_line_m / 2 * to_left);
-        };
-        const bool thick = solid_beside(1) || solid_beside(-1);
-        // Doubled walls may run closer than we look: nothing may stand between.
-        const auto open = [&](const Vec2d& p) {
-            const Vec2d from = middle + (p - middle) * 1e-3;
-            for (const std::size_t i : index.near((from + p) / 2, (p - from).norm() / 2)) {
-                if (separates(wall_lines[i], from, p)) return false;
-            }
-            return standing.contains(p);
-        };
-        const auto is_free = [&](double sign) {
-            return open(middle + sign * beside_line_m * to_left) ||
-                   (thick && !solid_beside(sign) && open(middle + sign * beside_solid_m * to_left));
-        };
-        wall.free_side[left] = is_free(1);
-        wall.free_side[right] = is_free(-1);
-        wall.scanned = wall.cls != WallClass::obstacle &&
-                       !(wall.cls == WallClass::window && options.windows == WindowMode::ignore);
-        if (solid_beside(1) && solid_beside(-1)) {
-            ++site.counts.inside_solids;
-            continue;
-        }
-        box.add(wall.a);
-        box.add(wall.b);
-        site.walls.push_back(wall);
+        site.extent.add(wall.a);
+        site.extent.add(wall.b);
     }
     sort_walls(site.walls);
-    site.extent = box;
-    for (const Polygon& p : free) {
-        site.free_region.push_back(p.outer);
-        for (const Ring& hole : p.holes) site.free_region.push_back(hole);
-    }
+    site.free_border = plan.border(ground);
+    site.area_m2 = ground.area_m2;
+    site.dropped = std::move(ground.dropped);
+    const auto rooms = static_cast<std::int64_t>(in.polys(Role::room).size());
+    site.buildings = rooms > 0 ? rooms : ground.parts;
 }
 
 }  // namespace vfplan

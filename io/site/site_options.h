@@ -45,7 +45,11 @@ struct SiteOptions {
     DoorMode doors = DoorMode::open;
     WindowMode windows = WindowMode::wall;
     InvalidPolygons invalid = InvalidPolygons::error;
-    double stand_radius_m = 0.3;  // indoors: a space is a room when such a circle fits in
+    // Indoors (io/site/ground.h):
+    double max_opening_m = 2;
+    double min_width_m = 0.3;
+    double min_room_m2 = 1;
+    double max_gap_m2 = 2;
     // Calls body(from, to) for disjoint parts of [0, n), perhaps several at once.
     using Body = std::function<void(std::int64_t, std::int64_t)>;
     std::function<void(std::int64_t n, const Body& body)> for_each =

@@ -1,119 +1,115 @@
 #include "io/site/site_outdoor.h"
 
-#include "io/site/planar.h"
-#include "io/site/site_walls.h"
+#include "io/site/groups.h"
+#include "io/site/subdivision.h"
+#include "kernels/index.h"
 
 namespace vfplan {
 namespace {
 
-// A part of the site that touches nothing else of it.
-struct Group {
-    std::vector<Polygon> solids;
-    std::vector<Polygon> obstacles;
-    std::vector<Line> walls;
-    std::vector<Line> obstacle_lines;
-};
+constexpr Source solid_wall{solid_area, WallClass::wall};
+constexpr Source solid_obstacle{obstacle_area, WallClass::obstacle};
+constexpr Source fence{line_kind, WallClass::wall};
+constexpr Source obstacle_line{line_kind, WallClass::obstacle};
 
-// What a group becomes.
+// What a part of the site that touches nothing else of it becomes.
 struct Built {
     std::vector<Wall> walls;
-    std::vector<Polygon> ground;  // solid
     double area_m2 = 0;
+    std::vector<Vec2d> repaired_at;
     CleaningCounts counts;
 };
 
 // Polygons and lines in a row, so that they can be numbered together.
 class Items {
 public:
-    Items(const FeaturesByRole& in, const std::vector<Role>& solid_roles) {
-        for (const Role r : solid_roles) add(in.polys(r), 0);
+    explicit Items(const FeaturesByRole& in) {
+        for (const Role r : {Role::building, Role::wall, Role::window, Role::door, Role::outline}) {
+            for (const Polygon& p : in.polys(r)) add(p, solid_wall);
+        }
         solids_ = boxes_.size();
-        add(in.polys(Role::obstacle), 1);
-        for (const Line& line : in.line(Role::wall)) add(line, 2);
-        for (const Line& line : in.line(Role::obstacle)) add(line, 3);
+        for (const Polygon& p : in.polys(Role::obstacle)) add(p, solid_obstacle);
+        for (const Line& line : in.line(Role::wall)) add(line, fence);
+        for (const Line& line : in.line(Role::obstacle)) add(line, obstacle_line);
     }
 
     const std::vector<Box>& boxes() const { return boxes_; }
     std::size_t solids() const { return solids_; }
-    Group group(const std::vector<std::size_t>& members) const {
-        Group out;
+    Linework linework(const std::vector<std::size_t>& members, double snap_m) const {
+        Linework out(snap_m);
         for (const std::size_t i : members) {
-            if (kind_[i] < 2) (kind_[i] == 0 ? out.solids : out.obstacles).push_back(*polygon_[i]);
-            if (kind_[i] >= 2)
-                (kind_[i] == 2 ? out.walls : out.obstacle_lines).push_back(*line_[i]);
+            if (polygon_[i] != nullptr) {
+                out.add(*polygon_[i], source_[i]);
+            } else {
+                out.add(*line_[i], source_[i]);
+            }
         }
         return out;
     }
 
 private:
-    void add(const std::vector<Polygon>& polygons, int kind) {
-        for (const Polygon& p : polygons) {
-            boxes_.push_back(planar::bounds(p.outer));
-            polygon_.push_back(&p);
-            line_.push_back(nullptr);
-            kind_.push_back(kind);
+    void add(const Polygon& polygon, const Source& source) {
+        Box box;
+        for (const Vec2d& v : polygon.outer) box.add(v);
+        for (const Ring& hole : polygon.holes) {
+            for (const Vec2d& v : hole) box.add(v);  // a wrong one may reach beyond
         }
+        boxes_.push_back(box);
+        polygon_.push_back(&polygon);
+        line_.push_back(nullptr);
+        source_.push_back(source);
     }
-    void add(const Line& line, int kind) {
-        boxes_.push_back(planar::bounds(line));
+    void add(const Line& line, const Source& source) {
+        Box box;
+        for (const Vec2d& v : line) box.add(v);
+        boxes_.push_back(box);
         polygon_.push_back(nullptr);
         line_.push_back(&line);
-        kind_.push_back(kind);
+        source_.push_back(source);
     }
 
     std::vector<Box> boxes_;
     std::vector<const Polygon*> polygon_;
     std::vector<const Line*> line_;
-    std::vector<int> kind_;
+    std::vector<Source> source_;
     std::size_t solids_ = 0;
 };
 
-Built build_group(const Group& in, double snap_m) {
-    Blocking edges;
-    edges.add_rings(in.solids, WallClass::wall);
-    edges.add_rings(in.obstacles, WallClass::obstacle);
-    edges.add(in.walls, WallClass::wall);
-    edges.add(in.obstacle_lines, WallClass::obstacle);
-    std::vector<Polygon> solids = in.solids;
-    solids.insert(solids.end(), in.obstacles.begin(), in.obstacles.end());
+Built build_group(const Linework& linework) {
+    const Subdivision s = subdivide(linework);
     Built out;
-    out.ground = planar::unite(solids, snap_m);
-    out.area_m2 = planar::area_m2(out.ground);
-    const planar::Region solid(out.ground);
-    for (Wall& wall : walls_from_lines(edges, snap_m, out.counts)) {
-        const Vec2d e = (wall.b - wall.a).normalized();
-        // Nothing else can come nearer than a snap: what lies this close is the wall's own side.
-        const Vec2d to_left = snap_m / 4 * Vec2d(-e.y(), e.x());
-        const Vec2d middle = (wall.a + wall.b) / 2;
-        wall.free_side[left] = !solid.contains(middle + to_left);
-        wall.free_side[right] = !solid.contains(middle - to_left);
-        wall.scanned = wall.cls != WallClass::obstacle;
-        if (wall.free_side[left] || wall.free_side[right]) {
-            out.walls.push_back(wall);
-        } else {
-            ++out.counts.inside_solids;
+    count_edges(linework, s.noded, out.counts);
+    out.repaired_at = self_crossings(linework, s.noded);
+    std::vector<EdgeUse> use = walls_among(s, out.counts);
+    for (std::size_t e = 0; e < use.size(); ++e) {
+        for (const Side side : {left, right}) {
+            use[e].free[side] = s.kinds[idx(s.triangle_at[e][side])] == 0;
         }
     }
+    out.walls = walls_of(s, linework.snap_m(), use, out.counts);
+    out.area_m2 = area_m2(s, linework.snap_m(),
+                          [&](std::int32_t triangle) { return s.kinds[idx(triangle)] != 0; });
     return out;
 }
 
 }  // namespace
 
 void build_outdoor(const FeaturesByRole& in, const SiteOptions& options, Site& site) {
-    const Items items(in, {Role::building, Role::wall, Role::window, Role::door, Role::outline});
+    const Items items(in);
     site.buildings = static_cast<std::int64_t>(items.solids());
-    const auto groups = planar::neighbour_groups(items.boxes(), 4 * options.snap_m);
+    const auto groups = neighbour_groups(items.boxes(), 4 * options.snap_m);
     std::vector<Built> built(groups.size());
     options.for_each(
         static_cast<std::int64_t>(groups.size()), [&](std::int64_t from, std::int64_t to) {
-            for (auto g = static_cast<std::size_t>(from); g < static_cast<std::size_t>(to); ++g) {
-                built[g] = build_group(items.group(groups[g]), options.snap_m);
+            for (std::int64_t g = from; g < to; ++g) {
+                built[idx(g)] = build_group(items.linework(groups[idx(g)], options.snap_m));
             }
         });
     Box box;
     for (Built& b : built) {
         site.area_m2 += b.area_m2;
         site.counts += b.counts;
+        site.repaired_at.insert(site.repaired_at.end(), b.repaired_at.begin(), b.repaired_at.end());
         for (const Wall& wall : b.walls) {
             box.add(wall.a);
             box.add(wall.b);
@@ -124,14 +120,13 @@ void build_outdoor(const FeaturesByRole& in, const SiteOptions& options, Site& s
     sort_walls(site.walls);
     const Vec2d margin(options.margin_m, options.margin_m);
     site.extent = {box.min - margin, box.max + margin};
-    // The frame around the extent, then every solid ring: inside the frame and no solid is free.
+    // Inside a frame around the extent, what no solid takes is free.
     const Vec2d lo = site.extent.min - Vec2d(1, 1);
     const Vec2d hi = site.extent.max + Vec2d(1, 1);
-    site.free_region.push_back({lo, {hi.x(), lo.y()}, hi, {lo.x(), hi.y()}});
-    for (Built& b : built) {
-        for (Polygon& p : b.ground) {
-            site.free_region.push_back(std::move(p.outer));
-            for (Ring& hole : p.holes) site.free_region.push_back(std::move(hole));
+    site.free_border = border_of({{lo, {hi.x(), lo.y()}, hi, {lo.x(), hi.y()}}});
+    for (const Wall& wall : site.walls) {
+        if (wall.free_side[left] != wall.free_side[right]) {
+            site.free_border.push_back({wall.a, wall.b});
         }
     }
 }

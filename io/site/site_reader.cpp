@@ -7,8 +7,10 @@
 #include "io/site/planar.h"
 #include "io/site/site_indoor.h"
 #include "io/site/site_outdoor.h"
+#include "io/site/subdivision.h"
 #include "io/site/vector_reader.h"
 #include "kernels/error.h"
+#include "kernels/index.h"
 
 namespace vfplan {
 namespace {
@@ -29,50 +31,62 @@ void crop(FeatureSet& set, const std::vector<double>& crop_m, CleaningCounts& co
     }));
 }
 
+// Why the polygons of a feature are invalid, empty for those that are not; asking takes long, and
+// features do not mind each other.
+std::vector<std::vector<std::string>> reasons_of(const FeatureSet& set,
+                                                 const SiteOptions& options) {
+    std::vector<std::vector<std::string>> reasons(set.features.size());
+    options.for_each(static_cast<std::int64_t>(reasons.size()),
+                     [&](std::int64_t from, std::int64_t to) {
+                         for (std::size_t i = idx(from); i < idx(to); ++i) {
+                             for (const Polygon& p : set.features[i].polygons) {
+                                 reasons[i].push_back(planar::invalid_reason(p));
+                             }
+                         }
+                     });
+    return reasons;
+}
+
 void settle_invalid(FeatureSet& set, const SiteOptions& options, const std::string& name,
                     CleaningCounts& counts) {
-    // Asking takes long, and features do not mind each other.
-    std::vector<std::vector<std::string>> reasons(set.features.size());
-    options.for_each(
-        static_cast<std::int64_t>(reasons.size()), [&](std::int64_t from, std::int64_t to) {
-            for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) {
-                for (const Polygon& p : set.features[i].polygons) {
-                    reasons[i].push_back(planar::invalid_reason(p));
-                }
-            }
-        });
+    // Where they are to be repaired nobody has to ask: see kernels/faces.h.
+    const bool ask = options.invalid != InvalidPolygons::repair;
+    const auto reasons = ask ? reasons_of(set, options) : std::vector<std::vector<std::string>>();
     for (std::size_t i = 0; i < set.features.size(); ++i) {
         Feature& f = set.features[i];
         if (f.role == Role::drawing || f.role == Role::opening) continue;
-        std::vector<Polygon> valid;
+        std::vector<Polygon> good;
         for (std::size_t k = 0; k < f.polygons.size(); ++k) {
             Polygon& p = f.polygons[k];
-            if (p.outer.size() < 3) {  // a point or a line drawn as a polygon: no area to lose
-                ++counts.dropped_invalid;
-                continue;
-            }
-            const std::string& reason = reasons[i][k];
-            if (reason.empty()) {
-                valid.push_back(std::move(p));
-                continue;
-            }
-            switch (options.invalid) {
-                case InvalidPolygons::error:
+            // A point or a line drawn as a polygon has no area to lose.
+            const bool empty = p.outer.size() < 3;
+            if (empty || (ask && !reasons[i][k].empty())) {
+                if (!empty && options.invalid == InvalidPolygons::error) {
                     throw InputError(fmt::format(
                         "{}: feature {}{}{}: {}; correct the polygon, or set site.invalid = "
                         "\"repair\" or \"drop\"",
-                        name, f.number, f.id.empty() ? "" : ", id ", f.id, reason));
-                case InvalidPolygons::repair:
-                    for (Polygon& part : planar::repaired(p)) valid.push_back(std::move(part));
-                    ++counts.repaired;
-                    break;
-                case InvalidPolygons::drop:
-                    ++counts.dropped_invalid;
-                    break;
+                        name, f.number, f.id.empty() ? "" : ", id ", f.id, reasons[i][k]));
+                }
+                ++counts.dropped_invalid;
+                continue;
             }
+            good.push_back(std::move(p));
         }
-        f.polygons = std::move(valid);
+        f.polygons = std::move(good);
     }
+}
+
+// One line for people about polygons that cross themselves; places are in the site's frame.
+std::string repair_warning(const std::vector<Vec2d>& places, const Site& site) {
+    constexpr std::size_t most = 5;
+    std::string text = fmt::format(
+        "{} polygons cross themselves; inside is what a ring surrounds an odd number of times; see",
+        places.size());
+    for (std::size_t i = 0; i < std::min(most, places.size()); ++i) {
+        const Vec2d at = places[i] + site.origin;
+        text += fmt::format("{} ({:.3f}, {:.3f})", i > 0 ? "," : "", at.x(), at.y());
+    }
+    return text + (places.size() > most ? ", ..." : "");
 }
 
 std::string problem_without_walls(bool no_features, const SiteOptions& options) {
@@ -95,13 +109,21 @@ std::string problem_without_walls(bool no_features, const SiteOptions& options) 
 
 }  // namespace
 
-std::vector<Ring> rings_of_union(const std::vector<Polygon>& polygons, double snap_m) {
-    std::vector<Ring> rings;
-    for (const Polygon& p : planar::unite(polygons, snap_m)) {
-        rings.push_back(p.outer);
-        rings.insert(rings.end(), p.holes.begin(), p.holes.end());
+std::vector<Border> border_of_union(const std::vector<Polygon>& polygons, double snap_m) {
+    Linework linework(snap_m);
+    for (const Polygon& p : polygons) linework.add(p, {solid_area, {}});
+    if (linework.segments().empty()) return {};
+    const Subdivision s = subdivide(linework);
+    std::vector<Border> out;
+    for (std::size_t e = 0; e < s.noded.edges.size(); ++e) {
+        const auto inside = [&](Side side) { return s.kinds[idx(s.triangle_at[e][side])] != 0; };
+        if (inside(left) == inside(right)) continue;
+        const auto metres = [&](const LatticePoint& p) -> Vec2d {
+            return Vec2d(static_cast<double>(p.x), static_cast<double>(p.y)) * snap_m;
+        };
+        out.push_back({metres(s.noded.edges[e].a), metres(s.noded.edges[e].b)});
     }
-    return rings;
+    return out;
 }
 
 SiteResult read_site(const std::filesystem::path& file, const SiteOptions& options) {
@@ -145,15 +167,17 @@ SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::str
         build_indoor(sorted, options, site);
     }
     site.counts.walls = static_cast<std::int64_t>(site.walls.size());
+    site.counts.repaired = static_cast<std::int64_t>(site.repaired_at.size());
+    if (!site.repaired_at.empty()) out.warnings.push_back(repair_warning(site.repaired_at, site));
     if (site.walls.empty()) {
         throw InputError(fmt::format("{}: {}", name, problem_without_walls(no_features, options)));
     }
-    if (site.free_region.empty()) {
-        throw InputError(
-            fmt::format("{}: nowhere in it can a station stand: the walls enclose no "
-                        "space wider than {} m; give rooms or an outline, or check "
-                        "site.unit_m",
-                        name, 2 * options.stand_radius_m));
+    if (site.free_border.empty()) {
+        throw InputError(fmt::format(
+            "{}: nowhere in it can a station stand: the walls enclose no space of {} m2; give "
+            "rooms or an outline, let site.max_opening_m = {} reach over wider gaps "
+            "in the walls, or check site.unit_m",
+            name, options.min_room_m2, options.max_opening_m));
     }
     return out;
 }

@@ -24,7 +24,7 @@ SiteResult read_site(const std::filesystem::path& file, const SiteOptions& optio
 // The same from features in memory; `name` is used in messages.
 SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::string& name);
 
-// The rings of the union of polygons, for even-odd tests.
-std::vector<Ring> rings_of_union(const std::vector<Polygon>& polygons, double snap_m);
+// The border of the union of polygons, for even-odd tests.
+std::vector<Border> border_of_union(const std::vector<Polygon>& polygons, double snap_m);
 
 }  // namespace vfplan

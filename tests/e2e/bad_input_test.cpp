@@ -157,11 +157,14 @@ TEST_F(BadInput, Geometry) {
                          "[26.93,60.52]]]")});
     expect_site({"feature 2", "no number"},
                 {polygon(square), polygon("[[[0,20],[10,NaN],[10,30],[0,30],[0,20]]]")});
-    expect_site({"feature 2", "5", "15", "site.invalid"},
-                {polygon(far_square), polygon("[[[0,10],[10,20],[10,10],[0,20],[0,10]]]")});
-    expect_site({"feature 2", "site.invalid"},
-                {polygon(far_square), polygon("[[[0,0],[10,0],[10,10],[0,10],[0,0]],"
-                                              "[[20,2],[22,2],[22,4],[20,4],[20,2]]]")});
+    const Words strict = {"site.invalid=error"};
+    expect(3, {"feature 2", "5", "15", "site.invalid"}, good_job,
+           collection({polygon(far_square), polygon("[[[0,10],[10,20],[10,10],[0,20],[0,10]]]")}),
+           strict);
+    expect(3, {"feature 2", "site.invalid"}, good_job,
+           collection({polygon(far_square), polygon("[[[0,0],[10,0],[10,10],[0,10],[0,0]],"
+                                                    "[[20,2],[22,2],[22,4],[20,4],[20,2]]]")}),
+           strict);
     expect_site({"feature 1", "1e+300"}, {polygon("[[[0,0],[1e300,0],[1e300,10],[0,10],[0,0]]]")});
 }
 

@@ -56,7 +56,7 @@ TEST(FreeCells, CellNumbersRunRowByRow) {
 }
 
 // Counts the ring edges that a ray to the east crosses.
-bool inside_odd(const std::vector<Ring>& rings, const Vec2d& p) {
+bool surrounded_oddly(const std::vector<Ring>& rings, const Vec2d& p) {
     bool odd = false;
     for (const Ring& ring : rings) {
         for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -81,9 +81,10 @@ TEST(FreeCells, FreeIsInsideAnOddNumberOfRings) {
             for (Vec2d& p : ring) p = {place(random), place(random)};
         }
         const Grid g = make_grid({{0, 0}, {30, 25}}, 1, 0.001);
-        const auto cells = free_cells(g, rings);
+        const auto cells = free_cells(g, border_of(rings));
         for (std::int64_t c = 0; c < g.size(); ++c) {
-            ASSERT_EQ(cells[static_cast<std::size_t>(c)], inside_odd(rings, g.centre(c)) ? 1 : 0);
+            ASSERT_EQ(cells[static_cast<std::size_t>(c)],
+                      surrounded_oddly(rings, g.centre(c)) ? 1 : 0);
             free += cells[static_cast<std::size_t>(c)];
         }
     }
@@ -94,7 +95,7 @@ TEST(FreeCells, CornersAtTheHeightOfCentresCountOnce) {
     Grid g;
     g.nx = g.ny = 9;
     const Ring diamond = {{4.4, 0.5}, {8.4, 4.5}, {4.4, 8.5}, {0.4, 4.5}};
-    const auto cells = free_cells(g, {diamond});
+    const auto cells = free_cells(g, border_of({diamond}));
     for (std::int32_t x = 0; x < 9; ++x) {
         EXPECT_EQ(cells[static_cast<std::size_t>(g.id(x, 4))], x < 8 ? 1 : 0) << x;
         EXPECT_EQ(cells[static_cast<std::size_t>(g.id(x, 2))], x >= 2 && x < 6 ? 1 : 0) << x;
@@ -105,7 +106,7 @@ TEST(FreeCells, HoleIsNotFree) {
     const Grid g = make_grid({{0, 0}, {10, 10}}, 1, 0.001);
     const Ring outer = {{0, 0}, {10, 0}, {10, 10}, {0, 10}};
     const Ring hole = {{4, 4}, {6, 4}, {6, 6}, {4, 6}};
-    const auto cells = free_cells(g, {outer, hole});
+    const auto cells = free_cells(g, border_of({outer, hole}));
     EXPECT_EQ(std::count(cells.begin(), cells.end(), 1), 100 - 4);
     EXPECT_EQ(cells[static_cast<std::size_t>(g.id(5, 5))], 0);
 }

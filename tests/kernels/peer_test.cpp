@@ -49,7 +49,7 @@ Site load(const SiteCase& test) {
 // Centres of free cells, chosen at random but the same ones each time.
 std::vector<Vec2d> sample(const Site& site, double cell_m, std::size_t count) {
     const Grid grid = make_grid(site.extent, cell_m, 0.001);
-    const auto free = free_cells(grid, site.free_region);
+    const auto free = free_cells(grid, site.free_border);
     std::mt19937_64 random(7);
     std::vector<Vec2d> out;
     for (std::size_t tries = 0; out.size() < count && tries < 1000 * count; ++tries) {
@@ -158,7 +158,7 @@ TEST_P(RaysAgainstExact, ErrorIsSmall) {
     const ExactScene exact(site.walls, site.extent, scanner.range_max_m);
     const EmbreeScene embree(site.walls, site.extent, scanner.range_max_m, rays);
     const Grid grid = make_grid(site.extent, cell_m, 0.001);
-    const auto free = free_cells(grid, site.free_region);
+    const auto free = free_cells(grid, site.free_border);
     // Windows at random, the same ones each time.
     std::mt19937_64 random(7);
     Raster<float> want(free.size(), -1.0F);

@@ -194,7 +194,7 @@ struct World {
         grid = make_grid(box, s.cell_m, 0.001);
         layout = make_layout(grid, s.scanner.range_max_m, s.tile_cells);
         pieces = cut_into_pieces(walls, s.partition_m);
-        standable = free_cells(grid, rings);
+        standable = free_cells(grid, border_of(rings));
         write_store(box);
         const Job job(options({}), site_.path());
         FieldWindow whole = job.field().window(whole_grid());
@@ -215,7 +215,7 @@ struct World {
         return grid.id(static_cast<std::int32_t>(std::floor(at.x())),
                        static_cast<std::int32_t>(std::floor(at.y())));
     }
-    bool free_at(const Vec2d& p) const { return inside_odd(outline, p); }
+    bool free_at(const Vec2d& p) const { return inside_odd(border_of(outline), p); }
     CoverageRow row(const Vec2d& eye) const { return scenes_->look(eye).row; }
     CoverageRow row(std::int64_t c) const { return row(grid.centre(c)); }
     double vf_rad(const Vec2d& eye) const { return scenes_->look(eye).vf_rad; }

@@ -198,17 +198,16 @@ TEST(Standable, BandsOfPatchesGiveTheCellsOfTheWholeGrid) {
         options.range_max_m = 1;  // small patches
         options.clearance_m = clearance;
         Site site;
-        const std::vector<Ring> holes = {ring_of({{5, 5}, {17, 7}, {12, 19}}),
+        const std::vector<Ring> rings = {ring_of({{5, 5}, {17, 7}, {12, 19}}),
                                          ring_of({{20, 3}, {33, 15.9}, {20, 16.1}}),
-                                         box_ring(2, 25, 38, 27)};
-        site.free_region = holes;
-        site.free_region.push_back(box_ring(0, 0, 41, 33));
-        for (const Ring& r : site.free_region) test::add_ring(site.walls, r);
+                                         box_ring(2, 25, 38, 27), box_ring(0, 0, 41, 33)};
+        site.free_border = border_of(rings);
+        for (const Ring& r : rings) test::add_ring(site.walls, r);
         site.extent = test::bounds_of(site.walls);
         const Layout layout = layout_of(options, site);
         ASSERT_GT(layout.patches(), 4);
         const auto bits = standable_bits(options, site, layout, Threads(2));
-        const Raster<std::uint8_t> free = free_cells(layout.grid, site.free_region);
+        const Raster<std::uint8_t> free = free_cells(layout.grid, site.free_border);
         const Raster<std::uint8_t> near = cells_near_walls(layout.grid, site.walls, clearance);
         std::int64_t standing = 0;
         for (std::int64_t p = 0; p < layout.patches(); ++p) {

@@ -65,13 +65,9 @@ inline bool free_towards(const Site& site, const Wall& w, const Vec2d& input) {
 inline bool is_free(const Site& site, const Vec2d& input) {
     const Vec2d p = input - site.origin;
     bool odd = false;
-    for (const Ring& ring : site.free_region) {
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            const Vec2d& a = ring[i];
-            const Vec2d& b = ring[(i + 1) % ring.size()];
-            if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-            if (a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()) > p.x()) odd = !odd;
-        }
+    for (const auto& [a, b] : site.free_border) {
+        if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+        if (a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()) > p.x()) odd = !odd;
     }
     return odd;
 }

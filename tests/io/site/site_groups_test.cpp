@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "io/site/planar.h"
+#include "io/site/groups.h"
 #include "tests/io/site/features.h"
 
 namespace vfplan {
@@ -46,7 +46,7 @@ TEST(Groups, AreTheClosureOfBeingNear) {
             }
         }
         std::vector<int> met(boxes.size(), 0);
-        const auto got = planar::neighbour_groups(boxes, 0.5);
+        const auto got = neighbour_groups(boxes, 0.5);
         for (const auto& members : got) {
             ASSERT_FALSE(members.empty());
             EXPECT_TRUE(std::is_sorted(members.begin(), members.end()));
