@@ -73,6 +73,39 @@ Raster<std::uint8_t> free_cells(const Grid& grid, const std::vector<Border>& bor
     return flips;
 }
 
+Raster<std::uint8_t> cells_on_walls(const Grid& grid, const std::vector<Wall>& walls) {
+    Raster<std::uint8_t> on(static_cast<std::size_t>(grid.size()), 0);
+    const double c = grid.cell_m;
+    const auto first_from = [&](double v, std::int32_t n) {
+        return static_cast<std::int32_t>(std::clamp(std::ceil(v / c - 0.5), 0.0, double(n)));
+    };
+    for (const Wall& wall : walls) {
+        const Vec2d a = wall.a - grid.origin;
+        const Vec2d e = wall.b - wall.a;
+        const double length = wall.length_m();
+        const double low = std::min(0.0, e.y()) + a.y();
+        const double high = std::max(0.0, e.y()) + a.y();
+        const std::int32_t row_end = first_from(high + on_wall_m, grid.ny);
+        for (std::int32_t iy = first_from(low - on_wall_m, grid.ny); iy < row_end; ++iy) {
+            // The stretch of the row that is near enough, a little more at the wall's ends.
+            const double y = c * (iy + 0.5);
+            double from = std::min(0.0, e.x()) + a.x() - on_wall_m;
+            double to = std::max(0.0, e.x()) + a.x() + on_wall_m;
+            if (e.y() != 0) {
+                const double x = a.x() + (y - a.y()) / e.y() * e.x();
+                const double reach = on_wall_m * length / std::abs(e.y());
+                from = std::max(from, x - reach);
+                to = std::min(to, x + reach);
+            }
+            const std::int32_t column_end = first_from(to, grid.nx);
+            for (std::int32_t ix = first_from(from, grid.nx); ix < column_end; ++ix) {
+                on[static_cast<std::size_t>(grid.id(ix, iy))] = 1;
+            }
+        }
+    }
+    return on;
+}
+
 Raster<std::uint8_t> cells_near_walls(const Grid& grid, const std::vector<Wall>& walls,
                                       double clearance_m) {
     Raster<std::uint8_t> near(static_cast<std::size_t>(grid.size()), 0);

@@ -22,6 +22,12 @@ bool inside_odd(const std::vector<Border>& border, const Vec2d& p);
 // rows they span).
 Raster<std::uint8_t> free_cells(const Grid& grid, const std::vector<Border>& border);
 
+// A centre that lies this near to a wall lies on it: which side it is on is for rounding to say.
+inline constexpr double on_wall_m = 1e-8;
+
+// 1 for cells whose centre lies on a wall. Time O(walls x rows they span).
+Raster<std::uint8_t> cells_on_walls(const Grid& grid, const std::vector<Wall>& walls);
+
 // 1 for cells whose centre is nearer to a wall than clearance_m; all 0 for a clearance of 0.
 Raster<std::uint8_t> cells_near_walls(const Grid& grid, const std::vector<Wall>& walls,
                                       double clearance_m);

@@ -35,7 +35,8 @@ Reach reach_on(const Scanner& scanner, double tan_incidence, double distance_m) 
     if (h2 >= max2) return {};
     Reach reach;
     reach.outer_m = std::sqrt(max2 - h2);
-    if (tan_incidence >= 0) reach.outer_m = std::min(reach.outer_m, distance_m * tan_incidence);
+    const double tan_steepest = tan_incidence >= 0 ? tan_incidence : 1 / edge_on_rad;
+    reach.outer_m = std::min(reach.outer_m, distance_m * tan_steepest);
     if (h2 < min2) reach.inner_m = std::sqrt(min2 - h2);
     return reach;
 }

@@ -44,6 +44,7 @@ SceneOptions scene_options(const Config& c) {
     o.kernel = c.visibility.kernel;
     o.rays = c.visibility.rays > 0 ? static_cast<int>(c.visibility.rays)
                                    : default_rays(c.scanner.range_max_m, c.coverage.partition_m);
+    o.more_rays = c.visibility.rays == 0;
     o.visible_fraction = c.coverage.visible_fraction;
     o.partition_m = c.coverage.partition_m;
     return o;

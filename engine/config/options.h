@@ -37,7 +37,8 @@ GroundOptions ground_options(const Config& config);
 struct SceneOptions {
     Scanner scanner;
     KernelKind kernel = KernelKind::exact;  // of the field; other views are always exact
-    int rays = 0;                           // of embree
+    int rays = 0;                           // of embree, at least
+    bool more_rays = true;                  // where these would miss too much
     double visible_fraction = 0.5;
     double partition_m = 1;
 };

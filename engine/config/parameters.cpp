@@ -78,7 +78,8 @@ std::vector<std::filesystem::path> existing_paths(const Config& config) {
         std::error_code error;
         if (!std::filesystem::exists(**path, error)) {
             throw IoError(
-                fmt::format("{}: no such file; check {} (in a job file it is relative to that file, in --set to the current folder)",
+                fmt::format("{}: no such file; check {} (in a job file it is relative to that "
+                            "file, in --set to the current folder)",
                             (*path)->string(), p.key()));
         }
         out.push_back(**path);

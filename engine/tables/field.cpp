@@ -25,6 +25,7 @@ FieldCounts field_of_patch(const TableJob& job, const SiteStore& site, std::int6
     FieldCounts counts;
     if (site.has_walls(patch)) {
         const std::shared_ptr<const Scene> scene = job.scenes.of_patch(patch);
+        Threads::apart([&] { scene->take_rays_enough(standable); });
         std::vector<Window> windows;
         for (std::int32_t y = whole.y_begin; y < whole.y_end; y += threads_window) {
             for (std::int32_t x = whole.x_begin; x < whole.x_end; x += threads_window) {

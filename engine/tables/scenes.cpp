@@ -28,12 +28,75 @@ Scene::Scene(const Layout& layout, std::int64_t patch, const PatchSite& site,
         }
     }
     const double margin = eye_margin_m(options.partition_m);
-    const Box around{{-margin, -margin},
-                     grid_.cell_m * Vec2d(grid_.nx, grid_.ny) + Vec2d(margin, margin)};
+    around_ = {{-margin, -margin},
+               grid_.cell_m * Vec2d(grid_.nx, grid_.ny) + Vec2d(margin, margin)};
     const double reach = options.scanner.range_max_m;
-    exact_ = make_kernel(KernelKind::exact, walls_, around, reach, 0);
+    exact_ = make_kernel(KernelKind::exact, walls_, around_, reach, 0);
     if (options.kernel != KernelKind::exact) {
-        of_field_ = make_kernel(options.kernel, walls_, around, reach, options.rays);
+        of_field_ = make_kernel(options.kernel, walls_, around_, reach, options.rays);
+    }
+}
+
+namespace {
+
+// Windows of the smallest size, evenly spread over those of a patch that have a cell to look from.
+std::vector<Window> spread_windows(const Grid& grid, const Raster<std::uint8_t>& standable) {
+    constexpr std::size_t wanted = 32;
+    std::vector<Window> all;
+    for (std::int32_t y = 0; y < grid.ny; y += window_step) {
+        for (std::int32_t x = 0; x < grid.nx; x += window_step) {
+            const Window w{x, y, std::min(x + window_step, grid.nx),
+                           std::min(y + window_step, grid.ny)};
+            bool any = false;
+            for (std::int32_t iy = y; iy < w.y_end && !any; ++iy) {
+                for (std::int32_t ix = x; ix < w.x_end && !any; ++ix) {
+                    any = standable[idx(grid.id(ix, iy))] != 0;
+                }
+            }
+            if (any) all.push_back(w);
+        }
+    }
+    if (all.size() <= wanted) return all;
+    std::vector<Window> out;
+    for (std::size_t i = 0; i < wanted; ++i)
+        out.push_back(all[(2 * i + 1) * all.size() / (2 * wanted)]);
+    return out;
+}
+
+}  // namespace
+
+void Scene::take_rays_enough(const Raster<std::uint8_t>& standable) const {
+    // verify allows 5e-3 rad over the whole site.
+    constexpr double mean_error_rad = 2e-3;
+    constexpr int most_rays = 16384;
+    const std::lock_guard lock(taking_rays_);
+    if (rays_taken_ || !of_field_ || !options_.more_rays) return;
+    rays_taken_ = true;
+    const std::vector<Window> windows = spread_windows(grid_, standable);
+    const auto values = [&](const ViewKernel& kernel) {
+        Raster<float> vf(standable.size(), 0);
+        for (const Window& w : windows) kernel.field(options_.scanner, grid_, w, standable, vf);
+        return vf;
+    };
+    const Raster<float> exact = values(*exact_);
+    for (int rays = options_.rays; rays < most_rays;) {
+        const Raster<float> got = values(*of_field_);
+        double sum = 0;
+        std::int64_t cells = 0;
+        for (const Window& w : windows) {
+            for (std::int32_t y = w.y_begin; y < w.y_end; ++y) {
+                for (std::int32_t x = w.x_begin; x < w.x_end; ++x) {
+                    const auto cell = idx(grid_.id(x, y));
+                    if (standable[cell] == 0) continue;
+                    sum += std::abs(static_cast<double>(got[cell] - exact[cell]));
+                    ++cells;
+                }
+            }
+        }
+        if (sum <= mean_error_rad * static_cast<double>(cells)) return;
+        rays *= 2;
+        of_field_ =
+            make_kernel(options_.kernel, walls_, around_, options_.scanner.range_max_m, rays);
     }
 }
 

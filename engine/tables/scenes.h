@@ -37,6 +37,11 @@ public:
     // REQUIRES: the eye lies in the patch, or within eye_margin_m of it.
     Look look(const Vec2d& eye) const;
 
+    // Before the first field() of a patch: takes rays enough that the field's mean error at a
+    // sample of its cells is well below what verify allows. Depends on the patch alone. `standable`
+    // covers it.
+    void take_rays_enough(const Raster<std::uint8_t>& standable) const;
+
     // VF of a window of the patch, counted from its corner; see ViewKernel::field. Both rasters
     // cover the patch.
     FieldCounts field(const Window& window, const Raster<std::uint8_t>& standable,
@@ -58,7 +63,10 @@ private:
     std::vector<std::int32_t> site_piece_;
     std::vector<double> length_m_;
     std::unique_ptr<ViewKernel> exact_;
-    std::unique_ptr<ViewKernel> of_field_;  // null: the exact one
+    Box around_;
+    mutable std::mutex taking_rays_;
+    mutable bool rays_taken_ = false;
+    mutable std::unique_ptr<ViewKernel> of_field_;  // null: the exact one
 };
 
 // The walls in and around a patch with their pieces, from those of the whole site. `near`: see

@@ -15,6 +15,7 @@
 #include "kernels/error.h"
 #include "kernels/free_cells.h"
 #include "kernels/index.h"
+#include "kernels/standing.h"
 
 namespace vfplan {
 namespace {
@@ -34,20 +35,17 @@ std::vector<Border> forbidden_border(const GroundOptions& o, const Site& site) {
 
 void check_points(const std::vector<Vec2d>& points, const Site& site,
                   const std::vector<Border>& forbidden, const char* key) {
+    const Standing standing(site, forbidden);
     for (const Vec2d& point : points) {
-        const Vec2d at = point - site.origin;
-        const char* why = nullptr;
-        if (!site.extent.contains(at) || !inside_odd(site.free_border, at)) {
-            why = "it is not in free space";
-        } else if (inside_odd(forbidden, at)) {
-            why = "plan.forbidden covers it";
+        const std::string_view why = standing.objection(point - site.origin);
+        if (why.empty()) continue;
+        std::string what = "give a point in the coordinates of the site";
+        if (const auto better = standing.nearest(point - site.origin)) {
+            const Vec2d at = *better + site.origin;
+            what = fmt::format("the nearest place is ({:.3f}, {:.3f})", at.x(), at.y());
         }
-        if (why != nullptr) {
-            throw UsageError(
-                fmt::format("{}: no station can stand at ({}, {}): {}; give a point in "
-                            "the coordinates of the site",
-                            key, point.x(), point.y(), why));
-        }
+        throw UsageError(fmt::format("{}: no station can stand at ({}, {}): {}; {}", key, point.x(),
+                                     point.y(), why, what));
     }
 }
 
@@ -156,16 +154,16 @@ std::vector<std::vector<std::uint8_t>> standable_bits(const GroundOptions& o, co
             const Raster<std::uint8_t> kept_out =
                 free_cells(grid, pieces_in(forbidden, y_min, y_max));
             std::vector<Wall> near;
-            if (const double clear = o.clearance_m; clear > 0) {
-                for (const Wall& w : site.walls) {
-                    if (std::max(w.a.y(), w.b.y()) + clear < y_min) continue;
-                    if (std::min(w.a.y(), w.b.y()) - clear > y_max) continue;
-                    near.push_back(w);
-                }
+            const double reach = std::max(o.clearance_m, o.cell_m);
+            for (const Wall& w : site.walls) {
+                if (std::max(w.a.y(), w.b.y()) + reach < y_min) continue;
+                if (std::min(w.a.y(), w.b.y()) - reach > y_max) continue;
+                near.push_back(w);
             }
+            const Raster<std::uint8_t> on_wall = cells_on_walls(grid, near);
             const Raster<std::uint8_t> too_near = cells_near_walls(grid, near, o.clearance_m);
             for (std::size_t i = 0; i < free.size(); ++i) {
-                if (kept_out[i] != 0 || too_near[i] != 0) free[i] = 0;
+                if (kept_out[i] != 0 || on_wall[i] != 0 || too_near[i] != 0) free[i] = 0;
             }
             for (std::int64_t p = first; p < first + layout.patch_columns(); ++p) {
                 const Window w = layout.patch_window(p);

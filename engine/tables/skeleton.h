@@ -7,8 +7,9 @@
 
 namespace vfplan {
 
-// Phase "skeleton": work/.../skeleton-NUMBER.h5. The same cells as if the whole grid had been thinned
-// at once: a tile is thinned with so much around it that the fate of each of its cells is certain.
+// Phase "skeleton": work/.../skeleton-NUMBER.h5. The same cells as if the whole grid had been
+// thinned at once: a tile is thinned with so much around it that the fate of each of its cells is
+// certain.
 SkeletonTiles make_skeleton(const TableJob& job, const FieldTiles& field, double threshold_rad);
 
 // Phase "ridges": work/.../ridges.h5, on the leader.

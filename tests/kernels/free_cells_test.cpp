@@ -111,6 +111,41 @@ TEST(FreeCells, HoleIsNotFree) {
     EXPECT_EQ(cells[static_cast<std::size_t>(g.id(5, 5))], 0);
 }
 
+TEST(CellsOnWalls, AreThoseWhoseCentreIsOnOne) {
+    std::mt19937_64 random(3);
+    std::int64_t on_some = 0;
+    for (int round = 0; round < 300; ++round) {
+        const auto below = [&](int n) {
+            return static_cast<double>(random() % static_cast<unsigned>(n));
+        };
+        Grid g;
+        g.origin = {below(5) - 2, 0.5};
+        g.cell_m = 0.5;
+        g.nx = 20;
+        g.ny = 17;
+        std::vector<Wall> walls(5);
+        for (Wall& w : walls) {  // corners on centres and between them
+            w.a = g.origin + Vec2d(0.25 * below(44) - 0.5, 0.25 * below(40) - 0.5);
+            do {
+                w.b = g.origin + Vec2d(0.25 * below(44) - 0.5, 0.25 * below(40) - 0.5);
+            } while (w.b == w.a);
+        }
+        const auto on = cells_on_walls(g, walls);
+        for (std::int64_t c = 0; c < g.size(); ++c) {
+            bool want = false;
+            for (const Wall& w : walls) {
+                const Vec2d e = w.b - w.a;
+                const double t = std::clamp((g.centre(c) - w.a).dot(e) / e.squaredNorm(), 0.0, 1.0);
+                want = want || (w.a + t * e - g.centre(c)).norm() < 1e-9;
+            }
+            ASSERT_EQ(on[static_cast<std::size_t>(c)] != 0, want)
+                << "round " << round << ", cell " << c;
+            on_some += want ? 1 : 0;
+        }
+    }
+    EXPECT_GT(on_some, 1000);
+}
+
 bool segments_cross(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
     const double u = orient(a, b, c) * orient(a, b, d);
     const double v = orient(c, d, a) * orient(c, d, b);

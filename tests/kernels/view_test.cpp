@@ -284,6 +284,21 @@ TEST_P(ViewTest, EdgeOnWallsBreakNothing) {
     for (std::int32_t w = 0; w < 4; ++w) expect_stretch(v, w, 0, 20);
 }
 
+// In line with a wall, and a little off it: where rounding puts the eye is nothing to count on.
+TEST(Observe, AWallSeenEdgeOnIsNotObserved) {
+    const std::vector<Wall> walls = {wall({3, 3}, {8, 8})};
+    const View whole_wall = {{0, left, 0, walls[0].length_m(), 0}};
+    for (const double off : {0.0, 1e-17, 1e-14, 1e-10}) {
+        View out;
+        observe(walls, {0.5, 100, 90}, {1 - off, 1 + off}, whole_wall, out);
+        EXPECT_TRUE(out.empty()) << off;
+    }
+    View out;
+    observe(walls, {0.5, 100, 90}, {1 - 1e-6, 1 + 1e-6}, whole_wall, out);
+    ASSERT_EQ(out.size(), 1U);
+    EXPECT_NEAR(out[0].s_end_m - out[0].s_begin_m, walls[0].length_m(), 1e-9);
+}
+
 // Few rays: 22.5 degrees apart, so that whole changes of wall lie between two of them.
 double seen_by_16_rays(const std::vector<Wall>& walls) {
     Box box = bounds_of(walls);

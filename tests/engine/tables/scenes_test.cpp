@@ -27,7 +27,7 @@ struct City {
         : walls(made(seed)),
           layout(laid_out(walls)),
           pieces(cut_into_pieces(walls, partition_m)),
-          options{{0.5, range_m, 88}, KernelKind::exact, 0, 0.5, partition_m},
+          options{{0.5, range_m, 88}, KernelKind::exact, 0, false, 0.5, partition_m},
           near(near_walls(layout, walls, wall_reach_m(range_m, partition_m, 0))),
           whole(walls, test::bounds_of(walls), range_m) {}
 
@@ -190,6 +190,39 @@ TEST(Scenes, TheFieldIsWhatIsSeenFromTheCentres) {
             EXPECT_LT(most, kernel == KernelKind::exact ? 1e-5 : 0.05) << name_of(kernel);
         }
     }
+}
+
+// 16 rays miss what stands between them; where that is too much more are taken.
+TEST(Scenes, RaysAreAsManyAsTheFieldNeeds) {
+    City city(7, 15);
+    city.options.kernel = KernelKind::embree;
+    city.options.rays = 16;
+    const auto worst_mean = [&](bool more_rays) {
+        city.options.more_rays = more_rays;
+        double worst = 0;
+        for (std::int64_t p = 0; p < city.layout.patches(); ++p) {
+            const Scene scene(city.layout, p, city.patch(p), city.options);
+            const Window w = city.layout.patch_window(p);
+            const Window all{0, 0, w.x_end - w.x_begin, w.y_end - w.y_begin};
+            const Raster<std::uint8_t> standable(static_cast<std::size_t>(w.size()), 1);
+            Raster<float> vf(standable.size(), -1);
+            scene.take_rays_enough(standable);
+            scene.field(all, standable, vf);
+            double sum = 0;
+            for (std::int32_t y = 0; y < all.y_end; ++y) {
+                for (std::int32_t x = 0; x < all.x_end; ++x) {
+                    const Vec2d eye =
+                        city.layout.grid.centre(city.layout.grid.id(w.x_begin + x, w.y_begin + y));
+                    const auto i = static_cast<std::size_t>(y * all.x_end + x);
+                    sum += std::abs(static_cast<double>(vf[i]) - city.by_the_whole(eye).vf_rad);
+                }
+            }
+            worst = std::max(worst, sum / static_cast<double>(standable.size()));
+        }
+        return worst;
+    };
+    EXPECT_GT(worst_mean(false), 5e-3);
+    EXPECT_LT(worst_mean(true), 5e-3);
 }
 
 }  // namespace
