@@ -111,8 +111,10 @@ struct Site {
     std::int64_t buildings = 0;       // solid polygons (outdoor) or named rooms / spaces (indoor)
     double area_m2 = 0;               // built area (outdoor) or floor area (indoor)
     std::vector<Dropped> dropped;     // indoors, the largest first
-    std::vector<Vec2d> repaired_at;   // a place each where a polygon crosses itself
-    std::string crs_wkt;              // empty when the input has none
+    std::vector<Vec2d> required;      // the user's points, in this frame
+    std::vector<Vec2d> existing;
+    std::vector<Vec2d> repaired_at;  // a place each where a polygon crosses itself
+    std::string crs_wkt;             // empty when the input has none
     CleaningCounts counts;
 };
 

@@ -168,6 +168,7 @@ Config config_of(Preset preset) {
     config.section.name = type::indoors;
 #define NUMBERS(section, name, stale, help)
 #define POINTS(section, name, stale, help)
+#define ROLES(section, name, stale, help)
 #define FORMATS(section, name, stale, help)
 #include "engine/config/parameters.def"
 #include "engine/config/undefine.def"

@@ -36,6 +36,7 @@ struct Config {
 #define CHOICE(type, section, name, outdoors, indoors, stale, help) type name = type::outdoors;
 #define NUMBERS(section, name, stale, help) std::vector<double> name;
 #define POINTS(section, name, stale, help) std::vector<Vec2d> name;
+#define ROLES(section, name, stale, help) std::vector<RoleRule> name;
 #define FORMATS(section, name, stale, help) std::vector<std::string> name = output_formats();
 #include "engine/config/parameters.def"
 #include "engine/config/undefine.def"

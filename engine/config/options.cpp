@@ -15,6 +15,10 @@ GroundOptions ground_options(const Config& c) {
     o.input = c.site.input;
     o.site.kind = c.site.kind;
     o.site.layer = c.site.layer;
+    o.site.where = c.site.where;
+    o.site.roles = c.site.roles;
+    o.site.osm_parts = c.site.osm_parts;
+    o.site.osm_barriers = c.site.osm_barriers;
     o.site.crs = c.site.crs;
     o.site.unit_m = c.site.unit_m;
     o.site.snap_m = c.site.snap_m;
@@ -51,8 +55,7 @@ SceneOptions scene_options(const Config& c) {
 }
 
 TableOptions table_options(const Config& c) {
-    return {scene_options(c), c.field.tile_cells, c.field.threshold_rad,
-            overlap_rule(c),  c.plan.required,    c.plan.existing};
+    return {scene_options(c), c.field.tile_cells, c.field.threshold_rad, overlap_rule(c), {}, {}};
 }
 
 PlanOptions plan_options(const Config& c) { return {c.plan.method, c.plan.loops, overlap_rule(c)}; }

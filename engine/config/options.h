@@ -23,7 +23,7 @@ struct GroundOptions {
     std::filesystem::path input;
     SiteOptions site;
     std::filesystem::path forbidden;  // polygons where no station may stand; may be empty
-    std::vector<Vec2d> required;      // the user's points, in the input's coordinates
+    std::vector<Vec2d> required;      // the user's points, as given
     std::vector<Vec2d> existing;
     double clearance_m = 0;
     double cell_m = 0.25;
@@ -50,7 +50,8 @@ struct TableOptions {
     std::int64_t tile_cells = 1024;
     double threshold_rad = 1;  // of the field, below which a cell carries no skeleton
     OverlapRule overlap;
-    std::vector<Vec2d> required;  // the user's points, in the input's coordinates
+    std::vector<Vec2d>
+        required;  // the user's points in the site's frame; make_tables() has them from it
     std::vector<Vec2d> existing;
 };
 TableOptions table_options(const Config& config);

@@ -44,6 +44,7 @@ std::vector<Parameter> parameters(Config& config) {
     add(#section, #name, choice(config.section.name), stale, help);
 #define NUMBERS(section, name, stale, help) add(#section, #name, &config.section.name, stale, help);
 #define POINTS(section, name, stale, help) add(#section, #name, &config.section.name, stale, help);
+#define ROLES(section, name, stale, help) add(#section, #name, &config.section.name, stale, help);
 #define FORMATS(section, name, stale, help)           \
     add(#section, #name, &config.section.name, stale, \
         fmt::format("{}{}", help, fmt::join(output_formats(), ", ")));
@@ -55,6 +56,10 @@ std::vector<Parameter> parameters(Config& config) {
 std::vector<std::string> Parameter::choices() const {
     if (const auto* of = std::get_if<Choice>(&value)) return {of->names.begin(), of->names.end()};
     if (std::holds_alternative<std::vector<std::string>*>(value)) return output_formats();
+    if (std::holds_alternative<std::vector<RoleRule>*>(value)) {
+        const auto roles = names_of<Role>();
+        return {roles.begin(), roles.end()};
+    }
     return {};
 }
 

@@ -22,9 +22,9 @@ struct Choice {
     std::span<const std::string_view> names;
 };
 
-using ParameterValue =
-    std::variant<std::string*, std::filesystem::path*, double*, std::int64_t*, bool*, Choice,
-                 std::vector<double>*, std::vector<Vec2d>*, std::vector<std::string>*>;
+using ParameterValue = std::variant<std::string*, std::filesystem::path*, double*, std::int64_t*,
+                                    bool*, Choice, std::vector<double>*, std::vector<Vec2d>*,
+                                    std::vector<std::string>*, std::vector<RoleRule>*>;
 
 // Of a number.
 struct Limits {

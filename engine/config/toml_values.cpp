@@ -104,6 +104,17 @@ struct Setter {
                              number_in(p, *pair->get(1), place));
         }
     }
+    void operator()(std::vector<RoleRule>* to) const {
+        const toml::table* rules = value.as_table();
+        if (rules == nullptr) {
+            bad_value(p, value, place, R"(must be a table in { }, such as { "A-WALL*" = "wall" })");
+        }
+        to->clear();
+        for (const auto& [pattern, role] : *rules) {
+            const std::size_t number = choice_in(p, text_in(p, role, place), value, place);
+            to->push_back({std::string(pattern.str()), static_cast<Role>(number)});
+        }
+    }
     void operator()(std::vector<std::string>* to) const {
         to->clear();
         for (const toml::node& n : array_in(p, value, place)) {
@@ -139,6 +150,14 @@ struct Writer {
         std::vector<std::string> pairs;
         for (const Vec2d& p : *v) pairs.push_back(fmt::format("[{}, {}]", p.x(), p.y()));
         return fmt::format("[{}]", fmt::join(pairs, ", "));
+    }
+    std::string operator()(const std::vector<RoleRule>* v) const {
+        std::vector<std::string> rules;
+        for (const RoleRule& r : *v) {
+            const std::string role(name_of(r.role));
+            rules.push_back(fmt::format("{} = {}", (*this)(&r.pattern), (*this)(&role)));
+        }
+        return rules.empty() ? "{}" : fmt::format("{{ {} }}", fmt::join(rules, ", "));
     }
     std::string operator()(const std::vector<std::string>* v) const {
         std::vector<std::string> quoted;

@@ -71,6 +71,8 @@ struct Squares {
 // The part of a site in a box, with the walls that are in sight of it.
 Site part_of_site(const Site& site, const Box& box, double range_m) {
     Site out = site;
+    out.required.clear();  // they may lie elsewhere
+    out.existing.clear();
     out.extent = {box.min.cwiseMax(site.extent.min), box.max.cwiseMin(site.extent.max)};
     const Vec2d reach(range_m, range_m);
     const Box around{out.extent.min - reach, out.extent.max + reach};
@@ -122,21 +124,18 @@ void try_part(const GroundOptions& ground, const TableOptions& options, const Si
 
 Sample try_squares(const GroundOptions& ground, const TableOptions& tables, const Site& site,
                    const Threads& threads) {
-    TableOptions without_points = tables;  // they may lie outside a square
-    without_points.required.clear();
-    without_points.existing.clear();
     const Squares squares(site, ground.cell_m, ground.range_max_m);
     Sample out;
     out.whole = squares.weight.size() <= squares_tried;
     if (out.whole) {
-        try_part(ground, without_points, site, threads, out);
+        try_part(ground, tables, site, threads, out);
         return out;
     }
     double all_m = 0;
     for (const double w : squares.weight) all_m += w;
     double tried_m = 0;
     for (const std::size_t square : squares.sample()) {
-        try_part(ground, without_points,
+        try_part(ground, tables,
                  part_of_site(site, squares.box(square), ground.range_max_m), threads, out);
         tried_m += squares.weight[square];
     }

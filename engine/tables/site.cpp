@@ -24,28 +24,31 @@ using Json = nlohmann::ordered_json;
 
 std::vector<Border> forbidden_border(const GroundOptions& o, const Site& site) {
     if (o.forbidden.empty()) return {};
+    ReadOptions read;
+    read.crs = site.crs_wkt;  // to where the site is
+    read.unit_m = o.site.unit_m;
     std::vector<Polygon> polygons;
-    for (Feature& f :
-         read_features(o.forbidden, {SiteKind::outdoor, "", o.site.crs, o.site.unit_m}).features) {
+    for (Feature& f : read_features(o.forbidden, read).features) {
         each_point(f, [&](Vec2d& v) { v -= site.origin; });
         for (Polygon& p : f.polygons) polygons.push_back(std::move(p));
     }
     return border_of_union(polygons, o.site.snap_m);
 }
 
-void check_points(const std::vector<Vec2d>& points, const Site& site,
-                  const std::vector<Border>& forbidden, const char* key) {
+// `given`: the points as the user wrote them, `points`: in the site's frame.
+void check_points(const std::vector<Vec2d>& given, const std::vector<Vec2d>& points,
+                  const Site& site, const std::vector<Border>& forbidden, const char* key) {
     const Standing standing(site, forbidden);
-    for (const Vec2d& point : points) {
-        const std::string_view why = standing.objection(point - site.origin);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::string_view why = standing.objection(points[i]);
         if (why.empty()) continue;
         std::string what = "give a point in the coordinates of the site";
-        if (const auto better = standing.nearest(point - site.origin)) {
+        if (const auto better = standing.nearest(points[i])) {
             const Vec2d at = *better + site.origin;
             what = fmt::format("the nearest place is ({:.3f}, {:.3f})", at.x(), at.y());
         }
-        throw UsageError(fmt::format("{}: no station can stand at ({}, {}): {}; {}", key, point.x(),
-                                     point.y(), why, what));
+        throw UsageError(fmt::format("{}: no station can stand at ({}, {}): {}; {}", key,
+                                     given[i].x(), given[i].y(), why, what));
     }
 }
 
@@ -187,14 +190,21 @@ Site read_ground(const GroundOptions& o, const Threads& threads, Progress& progr
     options.for_each = [&](std::int64_t n, const SiteOptions::Body& body) {
         threads.for_each(n, 16, body);
     };
+    options.points = o.required;
+    options.points.insert(options.points.end(), o.existing.begin(), o.existing.end());
     SiteResult read = read_site(o.input, options);
-    for (const std::string& w : read.warnings) progress.warn(w);
-    progress.note(site_text(read.site));
-    if (!o.required.empty()) {
-        check_points(o.required, read.site, forbidden_border(o, read.site), "plan.required");
+    Site& site = read.site;
+    for (std::size_t i = 0; i < read.points.size(); ++i) {
+        (i < o.required.size() ? site.required : site.existing)
+            .push_back(read.points[i] - site.origin);
     }
-    check_points(o.existing, read.site, {}, "plan.existing");
-    return std::move(read.site);
+    for (const std::string& w : read.warnings) progress.warn(w);
+    progress.note(site_text(site));
+    if (!o.required.empty()) {
+        check_points(o.required, site.required, site, forbidden_border(o, site), "plan.required");
+    }
+    check_points(o.existing, site.existing, site, {}, "plan.existing");
+    return std::move(site);
 }
 
 void store_site(const GroundOptions& o, const std::string& key, const Site& site,
@@ -214,6 +224,8 @@ void store_site(const GroundOptions& o, const std::string& key, const Site& site
     const Pieces pieces = cut_into_pieces(site.walls, o.partition_m);
     facts.origin = site.origin;
     facts.crs_wkt = site.crs_wkt;
+    facts.required = site.required;
+    facts.existing = site.existing;
     facts.buildings = site.buildings;
     facts.walls = static_cast<std::int64_t>(site.walls.size());
     facts.pieces = pieces.size();

@@ -61,15 +61,11 @@ void make_coverage_index(const TableJob& job, const SiteStore& site,
     });
 }
 
-// The user's points with their kind, in the site's frame.
-std::vector<Candidate> points_of_user(const TableOptions& options, const Vec2d& origin) {
+// The user's points with their kind.
+std::vector<Candidate> points_of_user(const TableOptions& options) {
     std::vector<Candidate> out;
-    for (const Vec2d& p : options.required) {
-        out.push_back({p - origin, -1, CandidateKind::required, 0});
-    }
-    for (const Vec2d& p : options.existing) {
-        out.push_back({p - origin, -1, CandidateKind::existing, 0});
-    }
+    for (const Vec2d& p : options.required) out.push_back({p, -1, CandidateKind::required, 0});
+    for (const Vec2d& p : options.existing) out.push_back({p, -1, CandidateKind::existing, 0});
     return out;
 }
 
@@ -97,7 +93,7 @@ bool tables_complete(const std::filesystem::path& dir, const std::string& key, P
 void make_coverage_table(const TableJob& job, const SiteStore& site, const FieldTiles& field,
                          const RidgeTiles& ridges, const TableOptions& options) {
     const std::int64_t pieces = site.facts().pieces;
-    const std::vector<Candidate> of_user = points_of_user(options, site.facts().origin);
+    const std::vector<Candidate> of_user = points_of_user(options);
     const OverlapRule& rule = options.overlap;
 
     const FoundTiles joints = make_joints(job, ridges, pieces);
@@ -119,11 +115,14 @@ void make_coverage_table(const TableJob& job, const SiteStore& site, const Field
                          {"components", candidates.components()}});
 }
 
-void make_tables(const TableOptions& options, const std::filesystem::path& dir,
+void make_tables(const TableOptions& of_job, const std::filesystem::path& dir,
                  const std::string& key, const Threads& threads, const Ranks& ranks,
                  Progress& progress) {
-    ranks.lead([&] { make_shard_folders(dir, options.tile_cells); });
-    const SiteStore site(dir / "work" / "site.h5", options.tile_cells);
+    ranks.lead([&] { make_shard_folders(dir, of_job.tile_cells); });
+    const SiteStore site(dir / "work" / "site.h5", of_job.tile_cells);
+    TableOptions options = of_job;
+    options.required = site.facts().required;
+    options.existing = site.facts().existing;
     const int scenes_kept = 8 + 8 * threads.count();  // a tile and its surroundings for each
     Scenes scenes(
         site.layout(), [&](std::int64_t patch) { return site.patch(patch); }, options.scenes,

@@ -5,8 +5,8 @@
 #include <iterator>
 
 #include "io/files.h"
+#include "io/site/crs.h"
 #include "io/tables/coverage_file.h"
-#include "io/tables/crs.h"
 #include "kernels/index.h"
 
 namespace vfplan {
@@ -27,24 +27,27 @@ std::string stations_csv(const CoverageTables& t, const Plan& plan) {
     return out;
 }
 
+// In longitude and latitude, as RFC 7946 wants it, wherever the site's CRS is known; else in plain
+// metres.
 std::string stations_geojson(const CoverageTables& t, const Plan& plan) {
-    // Plain metres and projected coordinates need saying so: the format itself means degrees.
-    const std::string crs = crs_name(t.crs_wkt);
-    std::string out = R"({"type": "FeatureCollection", "name": "stations", "units": "m", )";
-    if (!crs.empty()) {
-        out += fmt::format(R"("crs": {{"type": "name", "properties": {{"name": "{}"}}}}, )", crs);
-    }
+    const auto degrees = to_degrees(t.crs_wkt);
+    std::string out = R"({"type": "FeatureCollection", "name": "stations", )";
+    if (!degrees) out += R"("units": "m", )";
     out += "\"features\": [\n";
     for (std::size_t i = 0; i < plan.stations.size(); ++i) {
         const Station& s = plan.stations[i];
         const Candidate& c = candidate_of(t, s);
         const Vec2d p = t.origin + c.at;
+        const Vec2d shown = degrees ? degrees(p) : p;
         fmt::format_to(
             std::back_inserter(out),
-            "{{\"type\": \"Feature\", \"properties\": {{\"id\": {}, \"component\": {}, \"order\": "
-            "{}, \"kind\": \"{}\", \"new_length_m\": {:.3f}, \"seen_length_m\": {:.3f}}}, "
-            "\"geometry\": {{\"type\": \"Point\", \"coordinates\": [{:.4f}, {:.4f}]}}}}{}\n",
-            i, s.network, s.order, name_of(c.kind), s.new_length_m, s.seen_length_m, p.x(), p.y(),
+            "{{\"type\": \"Feature\", \"properties\": {{\"id\": {}, \"x_m\": {:.4f}, \"y_m\": "
+            "{:.4f}, "
+            "\"component\": {}, \"order\": {}, \"kind\": \"{}\", \"new_length_m\": {:.3f}, "
+            "\"seen_length_m\": {:.3f}}}, \"geometry\": {{\"type\": \"Point\", \"coordinates\": "
+            "[{:.{}f}, {:.{}f}]}}}}{}\n",
+            i, p.x(), p.y(), s.network, s.order, name_of(c.kind), s.new_length_m, s.seen_length_m,
+            shown.x(), degrees ? 9 : 4, shown.y(), degrees ? 9 : 4,
             i + 1 < plan.stations.size() ? "," : "");
     }
     return out + "]}\n";
@@ -95,7 +98,7 @@ constexpr Output all[] = {
      [](const std::filesystem::path& path, const Results& r) {
          write_text(path, stations_geojson(r.tables, r.plan));
      },
-     {0, 0, 80},
+     {0, 0, 280},
      {},
      {}},
     {"csv",

@@ -3,9 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "kernels/names.h"
 #include "kernels/vec.h"
 #include "kernels/wall.h"
 
@@ -29,7 +32,12 @@ enum class Role : std::uint8_t {
     room,      // a space that people call a room; no wall
     outline,   // the free space itself; its rings are walls
     opening,   // leaves, swings, panes, sills of a drawing: no wall, but they close the outline
-    drawing,   // labels, dimensions, hatches: nothing
+    ignored,   // labels, dimensions, hatches: nothing
+};
+template <>
+struct Names<Role> {
+    static constexpr std::array<std::string_view, 9> all = {
+        "building", "wall", "window", "door", "obstacle", "room", "outline", "opening", "ignored"};
 };
 
 struct Feature {
@@ -40,17 +48,17 @@ struct Feature {
     std::vector<Line> lines;
 };
 
-// Calls change(point) for every point of a feature.
-template <class F>
-void each_point(Feature& feature, F&& change) {
-    for (Polygon& p : feature.polygons) {
-        for (Vec2d& v : p.outer) change(v);
-        for (Ring& hole : p.holes) {
-            for (Vec2d& v : hole) change(v);
+// Calls f(point) for every point of a feature, which it may change if the feature is not const.
+template <class AnyFeature, class F>
+void each_point(AnyFeature& feature, F&& f) {
+    for (auto& p : feature.polygons) {
+        for (auto& v : p.outer) f(v);
+        for (auto& hole : p.holes) {
+            for (auto& v : hole) f(v);
         }
     }
-    for (Line& line : feature.lines) {
-        for (Vec2d& v : line) change(v);
+    for (auto& line : feature.lines) {
+        for (auto& v : line) f(v);
     }
 }
 
@@ -67,7 +75,9 @@ struct FeaturesByRole {
 // All that was read from one file.
 struct FeatureSet {
     std::vector<Feature> features;
-    std::string crs_wkt;       // empty when unknown
+    std::string crs_wkt;  // empty when unknown
+    // From longitude and latitude to these coordinates; empty where the file has no degrees.
+    std::function<Vec2d(const Vec2d&)> from_degrees;
     std::int64_t ignored = 0;  // points, empty geometries, features that are no building
     std::vector<std::string> warnings;
 };

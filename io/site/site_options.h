@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/site/feature.h"
 #include "kernels/names.h"
 
 namespace vfplan {
@@ -34,14 +35,34 @@ struct Names<InvalidPolygons> {
     static constexpr std::array<std::string_view, 3> all = {"error", "repair", "drop"};
 };
 
-struct SiteOptions {
+// Features whose class or layer a pattern matches have this role, whatever their words say.
+struct RoleRule {
+    std::string pattern;
+    Role role = Role::ignored;
+    friend bool operator==(const RoleRule&, const RoleRule&) = default;
+};
+
+// What is read from a file, and as what.
+struct ReadOptions {
     SiteKind kind = SiteKind::outdoor;
+    // Empty: the only one, or all of a DXF, or the polygons of OSM data. For DXF: parts of layers'
+    // names, with commas; case does not matter.
     std::string layer;
-    std::string crs;
-    double unit_m = 1;
+    std::string where;            // attribute filter, as SQL has it; empty: all
+    std::vector<RoleRule> roles;  // the user's own
+    bool osm_parts = false;       // building:part counts as a building
+    bool osm_barriers = false;    // walls and fences count as walls
+    std::string crs;    // "": as it is; "utm": the zone of the site; else a CRS that PROJ knows
+    double unit_m = 0;  // metres per unit of the file; 0: what the file says, else metres
+};
+
+struct SiteOptions : ReadOptions {
     double snap_m = 0.001;
-    double margin_m = 0;         // free ground around the outermost walls (outdoor)
-    std::vector<double> crop_m;  // empty or x0, y0, x1, y1 in the file's own metres
+    double margin_m = 0;  // free ground around the outermost walls (outdoor)
+    std::vector<Vec2d>
+        points;  // places to bring into the site's metres; in degrees where the file has them
+    std::vector<double>
+        crop_m;  // empty or x0, y0, x1, y1 in metres, or degrees if the file has them
     DoorMode doors = DoorMode::open;
     WindowMode windows = WindowMode::wall;
     InvalidPolygons invalid = InvalidPolygons::error;

@@ -15,16 +15,31 @@
 namespace vfplan {
 namespace {
 
-Box bounds(Feature& f) {
+Box bounds(const Feature& f) {
     Box box;
     each_point(f, [&](const Vec2d& v) { box.add(v); });
     return box;
 }
 
+// A place in degrees where those are meant: where the file has some, and the numbers can be degrees
+// but lie nowhere near the site as metres.
+Vec2d site_point(const Vec2d& given, const FeatureSet& set) {
+    if (!set.from_degrees || std::abs(given.x()) > 180 || std::abs(given.y()) > 90) return given;
+    constexpr double near_m = 1000;
+    Box box;
+    for (const Feature& f : set.features) each_point(f, [&](const Vec2d& v) { box.add(v); });
+    const Vec2d margin(near_m, near_m);
+    if (Box{box.min - margin, box.max + margin}.contains(given)) return given;
+    return set.from_degrees(given);
+}
+
 // Keeps the features whose bounding box has its centre in the crop: none is cut in two.
 void crop(FeatureSet& set, const std::vector<double>& crop_m, CleaningCounts& counts) {
     if (crop_m.empty()) return;
-    const Box keep{{crop_m[0], crop_m[1]}, {crop_m[2], crop_m[3]}};
+    Box keep;
+    for (const double x : {crop_m[0], crop_m[2]}) {
+        for (const double y : {crop_m[1], crop_m[3]}) keep.add(site_point({x, y}, set));
+    }
     counts.outside_crop = static_cast<std::int64_t>(std::erase_if(set.features, [&](Feature& f) {
         const Box box = bounds(f);
         return !keep.contains((box.min + box.max) / 2);
@@ -54,7 +69,7 @@ void settle_invalid(FeatureSet& set, const SiteOptions& options, const std::stri
     const auto reasons = ask ? reasons_of(set, options) : std::vector<std::vector<std::string>>();
     for (std::size_t i = 0; i < set.features.size(); ++i) {
         Feature& f = set.features[i];
-        if (f.role == Role::drawing || f.role == Role::opening) continue;
+        if (f.role == Role::ignored || f.role == Role::opening) continue;
         std::vector<Polygon> good;
         for (std::size_t k = 0; k < f.polygons.size(); ++k) {
             Polygon& p = f.polygons[k];
@@ -91,8 +106,8 @@ std::string repair_warning(const std::vector<Vec2d>& places, const Site& site) {
 
 std::string problem_without_walls(bool no_features, const SiteOptions& options) {
     if (no_features && !options.crop_m.empty()) {
-        return "no feature has its centre in site.crop_m; check the crop, it is in the file's "
-               "metres";
+        return "no feature has its centre in site.crop_m; check the crop, it is in the site's "
+               "metres, or in degrees if the file has them";
     }
     if (no_features) {
         return options.kind == SiteKind::outdoor
@@ -127,9 +142,7 @@ std::vector<Border> border_of_union(const std::vector<Polygon>& polygons, double
 }
 
 SiteResult read_site(const std::filesystem::path& file, const SiteOptions& options) {
-    return build_site(
-        read_features(file, {options.kind, options.layer, options.crs, options.unit_m}), options,
-        file.string());
+    return build_site(read_features(file, options), options, file.string());
 }
 
 SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::string& name) {
@@ -146,6 +159,8 @@ SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::str
         box.add(b.min);
         box.add(b.max);
     }
+    out.points.reserve(options.points.size());
+    for (const Vec2d& p : options.points) out.points.push_back(site_point(p, set));
     const bool no_features = set.features.empty();
     if (no_features) {
         throw InputError(fmt::format("{}: {}", name, problem_without_walls(no_features, options)));
@@ -155,7 +170,7 @@ SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::str
     FeaturesByRole sorted;
     for (Feature& f : set.features) {
         each_point(f, [&](Vec2d& v) { v -= site.origin; });
-        if (f.role == Role::drawing || f.role == Role::opening) ++site.counts.ignored;
+        if (f.role == Role::ignored || f.role == Role::opening) ++site.counts.ignored;
         const auto role = static_cast<std::size_t>(f.role);
         for (Polygon& p : f.polygons) sorted.polygons[role].push_back(std::move(p));
         for (Line& line : f.lines) sorted.lines[role].push_back(std::move(line));

@@ -15,6 +15,7 @@ namespace vfplan {
 struct SiteResult {
     Site site;
     std::vector<std::string> warnings;
+    std::vector<Vec2d> points;  // options.points in the input's metres
 };
 
 // Reads and cleans. Throws as read_features() does, and InputError for an invalid polygon (by

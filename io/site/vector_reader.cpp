@@ -8,12 +8,17 @@
 #include <ogr_srs_api.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <sstream>
 
+#include "io/site/crs.h"
+#include "io/site/roles.h"
+#include "io/site/units.h"
 #include "kernels/error.h"
 
 namespace vfplan {
@@ -41,17 +46,6 @@ struct FeatureDestroyer {
     void operator()(OGRFeatureH f) const { OGR_F_Destroy(f); }
 };
 using FeaturePtr = std::unique_ptr<std::remove_pointer_t<OGRFeatureH>, FeatureDestroyer>;
-
-struct SrsReleaser {
-    void operator()(OGRSpatialReferenceH s) const { OSRRelease(s); }
-};
-using Srs = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, SrsReleaser>;
-
-struct TransformDestroyer {
-    void operator()(OGRCoordinateTransformationH t) const { OCTDestroyCoordinateTransformation(t); }
-};
-using Transform =
-    std::unique_ptr<std::remove_pointer_t<OGRCoordinateTransformationH>, TransformDestroyer>;
 
 Dataset open(const std::filesystem::path& file) {
     static std::once_flag registered;
@@ -103,7 +97,9 @@ std::vector<OGRLayerH> choose_layers(GDALDatasetH set, const std::string& driver
         return {layer};
     }
     if (driver == "OSM") {
-        return {GDALDatasetGetLayerByName(set, "multipolygons")};
+        std::vector<OGRLayerH> out = {GDALDatasetGetLayerByName(set, "multipolygons")};
+        if (options.osm_barriers) out.push_back(GDALDatasetGetLayerByName(set, "lines"));
+        return out;
     }
     if (all.size() > 1 && driver != "DXF") {
         throw InputError(fmt::format("{}: {} layers, and site.layer names none; choose one of: {}",
@@ -112,23 +108,65 @@ std::vector<OGRLayerH> choose_layers(GDALDatasetH set, const std::string& driver
     return all;
 }
 
-// The role that a feature's words tell, the most telling first; empty when they say nothing.
-std::optional<Role> role_of(OGRFeatureH feature, bool& skip) {
-    for (const char* field : {"class", "Class", "CLASS", "type", "Type", "layer", "Layer"}) {
-        const int i = OGR_F_GetFieldIndex(feature, field);
-        if (i < 0 || !OGR_F_IsFieldSetAndNotNull(feature, i)) continue;
-        if (const auto role = role_of_word(OGR_F_GetFieldAsString(feature, i))) return role;
+std::string text_of(OGRFeatureH feature, const char* field) {
+    const int i = OGR_F_GetFieldIndex(feature, field);
+    return i >= 0 && OGR_F_IsFieldSetAndNotNull(feature, i) ? OGR_F_GetFieldAsString(feature, i)
+                                                            : "";
+}
+
+// What a feature is, and whether the file or the user said so.
+struct Told {
+    std::optional<Role> role;  // none: its shape decides
+    bool skip = false;         // it is nothing of ours
+};
+
+// OSM: only what is tagged counts, whatever relation it hangs in.
+Told told_by_osm(OGRFeatureH feature, const ReadOptions& options) {
+    const std::string building = text_of(feature, "building");
+    if (!building.empty() && building != "no") return {Role::building};
+    if (options.osm_parts &&
+        text_of(feature, "other_tags").find("\"building:part\"=>") != std::string::npos) {
+        return {Role::building};
     }
-    // OSM: a polygon is a building only when it says so.
-    const int building = OGR_F_GetFieldIndex(feature, "building");
-    if (building >= 0) {
-        const std::string value = OGR_F_IsFieldSetAndNotNull(feature, building)
-                                      ? OGR_F_GetFieldAsString(feature, building)
-                                      : "";
-        if (value.empty() || value == "no") skip = true;
-        return Role::building;
+    if (options.osm_barriers) {
+        for (const char* kind : {"wall", "city_wall", "retaining_wall", "fence", "hedge"}) {
+            if (text_of(feature, "barrier") == kind) return {Role::wall};
+        }
     }
-    return std::nullopt;
+    return {std::nullopt, true};
+}
+
+// The most telling field first: `class`, then outdoors whether it is a building, then type and
+// layer.
+Told told_by_words(OGRFeatureH feature, const std::string& layer, const ReadOptions& options) {
+    constexpr std::array fields = {"class", "Class", "CLASS", "type", "Type", "layer", "Layer"};
+    std::vector<std::string> texts;
+    for (const char* field : fields) texts.push_back(text_of(feature, field));
+    texts.push_back(layer);
+    for (const std::string& text : texts) {
+        if (text.empty()) continue;
+        if (const auto role = role_by_rules(options.roles, text)) return {role};
+    }
+    texts.pop_back();  // what a file's only layer is called tells nothing
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        // A municipality's boundary is no building, whatever shape it has.
+        if (options.kind == SiteKind::outdoor &&
+            (texts[i] == "boundary" || texts[i] == "Boundary")) {
+            return {std::nullopt, true};
+        }
+        if (const auto role = role_of_word(texts[i])) {
+            if (i < 3 || options.kind == SiteKind::indoor) return {role};
+        }
+        if (i == 2 && options.kind == SiteKind::outdoor &&
+            OGR_F_GetFieldIndex(feature, "building") >= 0) {
+            const std::string building = text_of(feature, "building");
+            return {Role::building, building.empty() || building == "no"};
+        }
+    }
+    for (const std::string& text : texts) {
+        if (const auto role = role_of_word(text)) return {role};
+    }
+    return {};
 }
 
 // DXF drawings are one layer to GDAL; their own layers are a field. True when its name contains
@@ -140,7 +178,14 @@ bool on_dxf_layer(OGRFeatureH feature, const std::string& wanted) {
     for (std::string word; std::getline(words, word, ',');) {
         word.erase(0, word.find_first_not_of(' '));
         word.erase(word.find_last_not_of(' ') + 1);
-        if (!word.empty() && layer.find(word) != std::string::npos) return true;
+        const auto same = [](char a, char b) {
+            return std::tolower(static_cast<unsigned char>(a)) ==
+                   std::tolower(static_cast<unsigned char>(b));
+        };
+        if (!word.empty() && std::search(layer.begin(), layer.end(), word.begin(), word.end(),
+                                         same) != layer.end()) {
+            return true;
+        }
     }
     return false;
 }
@@ -185,145 +230,71 @@ void collect(OGRGeometryH g, double unit_m, Feature& out) {
     }
 }
 
-template <class F>
-void each_point(FeatureSet& set, F&& f) {
-    for (Feature& feature : set.features) {
-        each_point(feature, [&](Vec2d& v) { f(feature, v); });
-    }
-}
+}  // namespace
 
-double longest_edge(const FeatureSet& set) {
-    double longest = 0;
-    const auto add = [&](const Line& line) {
-        for (std::size_t i = 1; i < line.size(); ++i) {
-            longest = std::max(longest, (line[i] - line[i - 1]).norm());
+namespace {
+
+// The features of a layer. `told`: by feature, whether its words told its role.
+void read_layer(OGRLayerH layer, const std::string& driver, double unit_m,
+                const ReadOptions& options, const std::filesystem::path& file, FeatureSet& out,
+                std::vector<bool>& told) {
+    if (!options.where.empty() &&
+        OGR_L_SetAttributeFilter(layer, options.where.c_str()) != OGRERR_NONE) {
+        throw UsageError(fmt::format("site.where = '{}': {}; {} has the fields it can ask for",
+                                     options.where, QuietErrors::last(), file.string()));
+    }
+    OGR_L_ResetReading(layer);
+    std::int64_t number = 0;
+    while (FeaturePtr f{OGR_L_GetNextFeature(layer)}) {
+        Feature feature;
+        feature.number = ++number;
+        feature.id = text_of(f.get(), "osm_id");
+        if (feature.id.empty()) feature.id = text_of(f.get(), "id");
+        OGRGeometryH geometry = OGR_F_GetGeometryRef(f.get());
+        if (geometry != nullptr) {
+            OGRGeometryH linear = OGR_G_GetLinearGeometry(geometry, 0, nullptr);
+            collect(linear, unit_m, feature);
+            OGR_G_DestroyGeometry(linear);
         }
-    };
+        const Told what = driver == "OSM" ? told_by_osm(f.get(), options)
+                                          : told_by_words(f.get(), OGR_L_GetName(layer), options);
+        if (what.skip || (feature.polygons.empty() && feature.lines.empty()) ||
+            (driver == "DXF" && !options.layer.empty() && !on_dxf_layer(f.get(), options.layer))) {
+            ++out.ignored;
+            continue;
+        }
+        feature.role = what.role.value_or(default_role(options.kind, !feature.polygons.empty()));
+        told.push_back(what.role.has_value());
+        out.features.push_back(std::move(feature));
+    }
+}
+
+void check_coordinates(const FeatureSet& set, const std::filesystem::path& file) {
+    constexpr double farthest_m = 1e8;  // beyond any map of the earth
     for (const Feature& f : set.features) {
-        for (const Polygon& p : f.polygons) add(p.outer);
-        for (const Line& line : f.lines) add(line);
+        each_point(f, [&](const Vec2d& v) {
+            const bool number = std::isfinite(v.x()) && std::isfinite(v.y());
+            if (number && v.cwiseAbs().maxCoeff() < farthest_m) return;
+            throw InputError(
+                fmt::format("{}: feature {}{}{}: a coordinate is no {} ({}, {}); correct or "
+                            "remove the feature",
+                            file.string(), f.number, f.id.empty() ? "" : ", id ", f.id,
+                            number ? "place on earth" : "number", v.x(), v.y()));
+        });
     }
-    return longest;
 }
 
-// Numbers that can be longitudes and latitudes, with no edge that would be longer than 3 cm if
-// they were metres.
-bool looks_like_degrees(FeatureSet& set) {
-    bool in_range = true;
-    each_point(set, [&](const Feature&, const Vec2d& v) {
-        in_range = in_range && std::abs(v.x()) <= 180 && std::abs(v.y()) <= 90;
-    });
-    const double edge = longest_edge(set);
-    return in_range && edge > 0 && edge < 0.03;
-}
-
-Srs make_srs(const std::string& definition) {
-    Srs srs(OSRNewSpatialReference(nullptr));
-    if (OSRSetFromUserInput(srs.get(), definition.c_str()) != OGRERR_NONE) {
-        throw UsageError(
-            fmt::format("site.crs = \"{}\": no coordinate reference system of that "
-                        "name; give \"utm\" or an EPSG code such as \"EPSG:32617\"",
-                        definition));
-    }
-    OSRSetAxisMappingStrategy(srs.get(), OAMS_TRADITIONAL_GIS_ORDER);
-    return srs;
-}
-
-std::string utm_zone_of(FeatureSet& set) {
-    Box box;
-    each_point(set, [&](const Feature&, const Vec2d& v) { box.add(v); });
-    const Vec2d middle = (box.min + box.max) / 2;
-    const int zone = std::clamp(static_cast<int>(std::floor((middle.x() + 180) / 6)) + 1, 1, 60);
-    return fmt::format("EPSG:{}", (middle.y() >= 0 ? 32600 : 32700) + zone);
-}
-
-std::string wkt_of(OGRSpatialReferenceH srs) {
+DeclaredCrs declared_crs(OGRLayerH layer, const std::string& driver) {
+    DeclaredCrs out;
+    OGRSpatialReferenceH srs = OGR_L_GetSpatialRef(layer);
+    out.always_project = driver == "OSM";
+    if (srs == nullptr) return out;
     char* text = nullptr;
     OSRExportToWkt(srs, &text);
-    std::string wkt = text == nullptr ? "" : text;
+    if (text != nullptr) out.wkt = text;
     CPLFree(text);
-    return wkt;
-}
-
-void project(FeatureSet& set, OGRSpatialReferenceH from, const std::string& definition) {
-    const Srs to = make_srs(definition);
-    const Transform transform(OCTNewCoordinateTransformation(from, to.get()));
-    if (!transform) {
-        throw InputError(
-            fmt::format("cannot project the site to {}: {}", definition, QuietErrors::last()));
-    }
-    each_point(set, [&](const Feature& f, Vec2d& v) {
-        double x = v.x();
-        double y = v.y();
-        if (OCTTransform(transform.get(), 1, &x, &y, nullptr) == 0 || !std::isfinite(x)) {
-            throw InputError(
-                fmt::format("feature {}: ({}, {}) cannot be projected to {}; choose "
-                            "another site.crs",
-                            f.number, v.x(), v.y(), definition));
-        }
-        v = {x, y};
-    });
-    set.crs_wkt = wkt_of(to.get());
-}
-
-void settle_crs(FeatureSet& set, OGRSpatialReferenceH srs, const std::string& driver,
-                const ReadOptions& options, const std::filesystem::path& file) {
-    Srs source(srs == nullptr ? nullptr : OSRClone(srs));
-    if (source) OSRSetAxisMappingStrategy(source.get(), OAMS_TRADITIONAL_GIS_ORDER);
-    const bool degrees = looks_like_degrees(set);
-    // GeoJSON without a crs member counts as WGS 84 by its standard; files in plain metres are
-    // common all the same, and their edges tell.
-    if (driver == "GeoJSON" && source && OSRIsGeographic(source.get()) != 0 && !degrees) {
-        source.reset();
-    }
-    if (!source && degrees) source = make_srs("EPSG:4326");
-    const bool geographic = source && OSRIsGeographic(source.get()) != 0;
-    if (!options.crs.empty() || driver == "OSM") {
-        const std::string wanted = options.crs.empty() ? "utm" : options.crs;
-        if (!source) {
-            throw InputError(
-                fmt::format("{}: site.crs asks for {}, but the file does not say what "
-                            "its coordinates are; leave site.crs out if they are "
-                            "metres",
-                            file.string(), wanted));
-        }
-        if (geographic) {
-            project(set, source.get(), wanted == "utm" ? utm_zone_of(set) : wanted);
-            return;
-        }
-        if (wanted != "utm") {
-            project(set, source.get(), wanted);
-            return;
-        }
-        const Srs wgs84 = make_srs("EPSG:4326");
-        project(set, source.get(), "EPSG:4326");
-        project(set, wgs84.get(), utm_zone_of(set));
-        return;
-    }
-    if (geographic) {
-        throw InputError(
-            fmt::format("{}: coordinates are in degrees, but walls and ranges are in "
-                        "metres; set site.crs = \"utm\" to have them projected",
-                        file.string()));
-    }
-    if (!source) return;
-    if (OSRIsProjected(source.get()) != 0) {
-        char* unit = nullptr;
-        const double metres = OSRGetLinearUnits(source.get(), &unit);
-        if (std::abs(metres - 1) > 1e-6) {
-            throw InputError(
-                fmt::format("{}: coordinates are in {} of {} m, not in metres; set "
-                            "site.crs = \"utm\" to have them projected",
-                            file.string(), unit, metres));
-        }
-        const char* code = OSRGetAuthorityCode(source.get(), nullptr);
-        if (code != nullptr && std::string(code) == "3857") {
-            set.warnings.emplace_back(
-                "EPSG:3857 stretches lengths away from the equator; set site.crs = \"utm\" for "
-                "true metres");
-        }
-    }
-    set.crs_wkt = wkt_of(source.get());
+    out.by_default = driver == "GeoJSON" && OSRIsGeographic(srs) != 0;
+    return out;
 }
 
 }  // namespace
@@ -332,60 +303,28 @@ FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& o
     const QuietErrors quiet;
     const Dataset set = open(file);
     const std::string driver = GDALGetDriverShortName(GDALGetDatasetDriver(set.get()));
+    Unit unit;
+    if (driver == "DXF") unit = unit_of_dxf(file);
+    const double unit_m = options.unit_m > 0 ? options.unit_m : unit.metres;
     FeatureSet out;
-    std::vector<bool> told;  // by feature: whether its words told its role
-    OGRSpatialReferenceH srs = nullptr;
-    for (OGRLayerH layer : choose_layers(set.get(), driver, options, file)) {
-        if (srs == nullptr) srs = OGR_L_GetSpatialRef(layer);
-        OGR_L_ResetReading(layer);
-        std::int64_t number = 0;
-        while (FeaturePtr f{OGR_L_GetNextFeature(layer)}) {
-            Feature feature;
-            feature.number = ++number;
-            const int id = std::max(OGR_F_GetFieldIndex(f.get(), "osm_id"),
-                                    OGR_F_GetFieldIndex(f.get(), "id"));
-            if (id >= 0) feature.id = OGR_F_GetFieldAsString(f.get(), id);
-            OGRGeometryH geometry = OGR_F_GetGeometryRef(f.get());
-            if (geometry != nullptr) {
-                OGRGeometryH linear = OGR_G_GetLinearGeometry(geometry, 0, nullptr);
-                collect(linear, options.unit_m, feature);
-                OGR_G_DestroyGeometry(linear);
-            }
-            bool skip = feature.polygons.empty() && feature.lines.empty();
-            const std::optional<Role> role = role_of(f.get(), skip);
-            if (driver == "DXF" && !options.layer.empty()) {
-                skip = skip || !on_dxf_layer(f.get(), options.layer);
-            }
-            if (skip) {
-                ++out.ignored;
-                continue;
-            }
-            feature.role = role.value_or(default_role(options.kind, !feature.polygons.empty()));
-            told.push_back(role.has_value());
-            out.features.push_back(std::move(feature));
-        }
-    }
+    std::vector<bool> told;
+    const std::vector<OGRLayerH> layers = choose_layers(set.get(), driver, options, file);
+    for (OGRLayerH layer : layers) read_layer(layer, driver, unit_m, options, file, out, told);
     // A drawing with a layer of walls has furniture, fixtures and text on its other layers.
-    if (driver == "DXF" && std::find(told.begin(), told.end(), true) != told.end()) {
-        for (std::size_t i = 0; i < told.size(); ++i) {
-            if (!told[i]) out.features[i].role = Role::drawing;
-        }
+    bool walls_told = false;
+    for (std::size_t i = 0; i < told.size(); ++i) {
+        walls_told = walls_told || (told[i] && out.features[i].role == Role::wall);
+    }
+    for (std::size_t i = 0; driver == "DXF" && walls_told && i < told.size(); ++i) {
+        if (!told[i]) out.features[i].role = Role::ignored;
     }
     if (CPLGetLastErrorType() >= CE_Failure) {
         throw InputError(fmt::format("{}: {}; the file is damaged, export the site again",
                                      file.string(), QuietErrors::last()));
     }
-    each_point(out, [&](const Feature& f, const Vec2d& v) {
-        constexpr double farthest_m = 1e8;  // beyond any map of the earth
-        const bool number = std::isfinite(v.x()) && std::isfinite(v.y());
-        if (number && v.cwiseAbs().maxCoeff() < farthest_m) return;
-        throw InputError(
-            fmt::format("{}: feature {}{}{}: a coordinate is no {} ({}, {}); correct or "
-                        "remove the feature",
-                        file.string(), f.number, f.id.empty() ? "" : ", id ", f.id,
-                        number ? "place on earth" : "number", v.x(), v.y()));
-    });
-    settle_crs(out, srs, driver, options, file);
+    check_coordinates(out, file);
+    if (!layers.empty()) settle_crs(out, declared_crs(layers.front(), driver), options, file);
+    check_size(out, unit, options, file);
     return out;
 }
 

@@ -12,6 +12,18 @@ namespace {
 constexpr std::uint64_t short_chunk = 1U << 13;  // patches are read one by one
 constexpr std::size_t at_once = 1U << 20;        // walls that are gathered before they are written
 
+std::vector<double> flat(const std::vector<Vec2d>& points) {
+    std::vector<double> out;
+    for (const Vec2d& p : points) out.insert(out.end(), {p.x(), p.y()});
+    return out;
+}
+
+std::vector<Vec2d> points(const std::vector<double>& flat) {
+    std::vector<Vec2d> out;
+    for (std::size_t i = 0; i + 1 < flat.size(); i += 2) out.emplace_back(flat[i], flat[i + 1]);
+    return out;
+}
+
 }  // namespace
 
 void write_site_store(const std::filesystem::path& path, const std::string& key,
@@ -31,6 +43,8 @@ void write_site_store(const std::filesystem::path& path, const std::string& key,
                             facts.origin.x(), facts.origin.y(), facts.extent.min.x(),
                             facts.extent.min.y(), facts.extent.max.x(), facts.extent.max.y(),
                             layout.grid.origin.x(), layout.grid.origin.y(), layout.grid.cell_m});
+    file.write("required", flat(facts.required));
+    file.write("existing", flat(facts.existing));
     file.write("layout",
                std::vector<std::int32_t>{layout.grid.nx, layout.grid.ny, layout.patch_cells});
     file.group("walls");
@@ -88,6 +102,8 @@ SiteStore::SiteStore(const std::filesystem::path& path, std::int64_t tile_cells)
     }
     facts_.origin = {frame[0], frame[1]};
     facts_.extent = {{frame[2], frame[3]}, {frame[4], frame[5]}};
+    facts_.required = points(file_.read<double>("required"));
+    facts_.existing = points(file_.read<double>("existing"));
     layout_ = {{{frame[6], frame[7]}, frame[8], sizes[0], sizes[1]},
                sizes[2],
                static_cast<std::int32_t>(tile_cells)};

@@ -25,6 +25,8 @@ struct SiteFacts {
     std::int64_t pieces = 0;
     std::int64_t free_cells = 0;
     Box extent;
+    std::vector<Vec2d> required;  // the user's points, in the site's frame
+    std::vector<Vec2d> existing;
 };
 
 // A patch: the walls in and around it in the site's frame, ascending, and where their pieces begin

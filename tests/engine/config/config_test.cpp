@@ -43,6 +43,7 @@ Config unusual() {
         "[site]\ninput = 'town.geojson'\nlayer = \"walls, \\\"new\\\" \\\\ \\t \\u00e4\"\nkind = "
         "'outdoor'\n"
         "crop_m = [-1.5, 2, 3e5, 4.25]\ndoors = 'closed'\nwindows = 'opening'\ncrs = 'utm'\n"
+        "where = 'x > 3'\nroles = { 'A-*' = 'wall', 'B?' = 'ignored' }\nosm_parts = true\nosm_barriers = true\n"
         "unit_m = 0.0254\nsnap_m = 0.002\nmargin_m = 7\nclearance_m = 0.3\ninvalid = 'drop'\n"
         "max_opening_m = 1.5\nmin_width_m = 0.4\nmin_room_m2 = 2\nmax_gap_m2 = 3\n"
         "[scanner]\nrange_min_m = 0.1\nrange_max_m = 33.3\nmax_incidence_deg = 71\n"

@@ -224,7 +224,7 @@ TEST(SiteIndoor, WallsAloneTellWhatIsInside) {
 TEST(SiteIndoor, DrawingsMakeNoWalls) {
     FeatureSet set;
     add_polygon(set, Role::outline, box_ring(0, 0, 10, 8));
-    add_line(set, Role::drawing, {{2, 2}, {4, 4}});
+    add_line(set, Role::ignored, {{2, 2}, {4, 4}});
     const Site site = build(set);
     EXPECT_EQ(site.walls.size(), 4U);
     EXPECT_EQ(site.counts.ignored, 1);

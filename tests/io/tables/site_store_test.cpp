@@ -58,8 +58,8 @@ struct Stored {
                 }
             }
         }
-        facts = {{5e5, 4e6}, "PROJCS[\"x\"]",    R"({"site":1})", 12, 400, pieces.size(),
-                 777,        {{0, 0}, {148, 97}}};
+        facts = {{5e5, 4e6}, "PROJCS[\"x\"]",     R"({"site":1})",  12,      400, pieces.size(),
+                 777,        {{0, 0}, {148, 97}}, {{1, 2}, {3, 4}}, {{5, 6}}};
         write_site_store(file.path(), "the key", layout, facts, walls, pieces, near, bits);
     }
 };

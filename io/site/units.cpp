@@ -1,0 +1,93 @@
+#include "io/site/units.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+#include "kernels/error.h"
+
+namespace vfplan {
+namespace {
+
+struct Named {
+    int insunits;
+    const char* name;
+    double metres;
+};
+constexpr std::array<Named, 8> units = {{{1, "inches", 0.0254},
+                                         {2, "feet", 0.3048},
+                                         {4, "millimetres", 0.001},
+                                         {5, "centimetres", 0.01},
+                                         {6, "metres", 1},
+                                         {10, "yards", 0.9144},
+                                         {14, "decimetres", 0.1},
+                                         {21, "US survey feet", 1200.0 / 3937}}};
+
+std::string trimmed(const std::string& line) {
+    const auto from = line.find_first_not_of(" \t\r");
+    if (from == std::string::npos) return "";
+    return line.substr(from, line.find_last_not_of(" \t\r") - from + 1);
+}
+
+}  // namespace
+
+Unit unit_of_dxf(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    constexpr int header_lines = 20000;
+    std::string line;
+    for (int i = 0; i < header_lines && std::getline(in, line); ++i) {
+        const std::string word = trimmed(line);
+        if (word == "ENDSEC" || word == "ENTITIES") break;
+        if (word != "$INSUNITS") continue;
+        std::string code;
+        std::string value;
+        if (!std::getline(in, code) || !std::getline(in, value) || trimmed(code) != "70") break;
+        const std::string number = trimmed(value);
+        for (const Named& u : units) {
+            if (number == std::to_string(u.insunits)) {
+                return {u.metres, fmt::format("{} ($INSUNITS = {})", u.name, u.insunits)};
+            }
+        }
+        break;  // unitless, or a unit of the stars
+    }
+    return {};
+}
+
+void check_size(const FeatureSet& set, const Unit& unit, const ReadOptions& options,
+                const std::filesystem::path& file) {
+    if (options.kind != SiteKind::indoor || options.unit_m > 0) return;
+    Box box;
+    for (const Feature& f : set.features) {
+        if (f.role == Role::ignored) continue;
+        each_point(f, [&](const Vec2d& v) { box.add(v); });
+    }
+    if (box.empty()) return;
+    const double size_m = box.size().maxCoeff();
+    constexpr double smallest_m = 2;
+    constexpr double largest_m = 2000;
+    if (!(size_m > 0) || (size_m >= smallest_m && size_m <= largest_m)) return;
+    // The commonest unit that makes a building of it.
+    constexpr std::array<int, 5> commonest_first = {4, 1, 5, 6, 2};
+    const auto sized = [&](const Named& u) { return size_m / unit.metres * u.metres; };
+    const auto of = [](int insunits) {
+        return *std::find_if(units.begin(), units.end(),
+                             [&](const Named& u) { return u.insunits == insunits; });
+    };
+    const auto found = std::find_if(
+        commonest_first.begin(), commonest_first.end(),
+        [&](int insunits) { return sized(of(insunits)) >= 4 && sized(of(insunits)) <= 400; });
+    if (found == commonest_first.end()) return;  // no unit makes sense of it
+    const Named better = of(*found);
+    const double scale = better.metres / unit.metres;
+    throw InputError(
+        fmt::format("{}: {:.3g} x {:.3g} m for a floor plan{}: are these {} ({:.3g} x {:.3g} m)? "
+                    "set site.unit_m = {:g}, "
+                    "or the unit that it is drawn in, in metres",
+                    file.string(), box.size().x(), box.size().y(),
+                    unit.said.empty() ? "" : ", since the file says " + unit.said, better.name,
+                    box.size().x() * scale, box.size().y() * scale, better.metres));
+}
+
+}  // namespace vfplan
