@@ -110,8 +110,9 @@ struct Site {
     Box extent;                       // what the grid covers
     std::int64_t buildings = 0;       // solid polygons (outdoor) or named rooms / spaces (indoor)
     double area_m2 = 0;               // built area (outdoor) or floor area (indoor)
-    std::vector<Dropped> dropped;     // indoors, the largest first
-    std::vector<Vec2d> required;      // the user's points, in this frame
+    std::vector<Border> left_out_border;  // even-odd: inside a building, but no ground
+    std::vector<Dropped> dropped;         // indoors, the largest first
+    std::vector<Vec2d> required;          // the user's points, in this frame
     std::vector<Vec2d> existing;
     std::vector<Vec2d> repaired_at;  // a place each where a polygon crosses itself
     std::string crs_wkt;             // empty when the input has none

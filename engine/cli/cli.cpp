@@ -10,6 +10,7 @@
 #include "engine/cli/submit.h"
 #include "engine/config/parameters.h"
 #include "engine/generate/generate.h"
+#include "engine/job/inspect.h"
 #include "engine/job/pipeline.h"
 #include "engine/job/verify.h"
 #include "engine/runtime/ending.h"
@@ -66,7 +67,10 @@ void add_common(CLI::App& app, Shared& s) {
 }
 
 void add_job_and_out(CLI::App& app, Shared& s) {
-    app.add_option("JOB", s.job, "Job file (TOML); configs/ has examples")->required();
+    app.add_option(
+           "JOB", s.job,
+           "Job file (.toml; configs/ has examples), or a site to plan with the preset that fits")
+        ->required();
     app.add_option("--out", s.out, "Run directory; default: the job file's name without .toml");
     add_sets(app, s, "Replaces a parameter of the job file; may be repeated");
 }
@@ -86,9 +90,19 @@ std::filesystem::path out_of(const Shared& s) {
     return out;
 }
 
+// A job file, or a site that is planned with the preset that fits.
+Config job_or_site(const Shared& s) {
+    if (std::filesystem::path(s.job).extension() == ".toml") return read_config(s.job, s.sets);
+    return config_for_site(s.job, s.sets);
+}
+
 int run_or_precompute(const Shared& s, bool plan, const Ranks& ranks) {
     Progress progress(s.quiet, !ranks.leader());
-    const Config config = read_config(s.job, s.sets);
+    const Config config = job_or_site(s);
+    if (ranks.leader() && std::filesystem::path(s.job).extension() != ".toml") {
+        progress.note(fmt::format("{} is a site, no job file: planned with preset \"{}\"", s.job,
+                                  name_of(config.preset)));
+    }
     JobOptions options;
     options.out = out_of(s);
     options.threads = s.threads;
@@ -154,6 +168,15 @@ int verify(const Shared& s) {
     return r.good ? 0 : 1;
 }
 
+int look_at_site(const Shared& s) {
+    const std::filesystem::path picture =
+        s.out.empty() ? std::filesystem::path(s.job).stem().string() + ".site.png" : s.out;
+    const Inspection found = inspect(job_or_site(s), s.threads);
+    write_text(picture, found.picture);
+    fmt::print("{}picture    {}\n", found.text, picture.string());
+    return 0;
+}
+
 int dispatch(int argc, char** argv, const Ranks& ranks) {
     if (const char* isa = std::getenv("VFPLAN_ISA"); isa != nullptr && *isa != '\0') {
         limit_isa(isa);
@@ -187,6 +210,12 @@ int dispatch(int argc, char** argv, const Ranks& ranks) {
         "verify", "Looks again from every station with the exact kernel; says yes or no");
     check->add_option("DIR", s.dir, "Run directory")->required();
     add_common(*check, s);
+    CLI::App* look = app.add_subcommand(
+        "inspect", "Says what a site was read as: roles, units, walls, ground; and draws it");
+    look->add_option("FILE", s.job, "Site file, or job file (.toml)")->required();
+    look->add_option("--out", s.out, "The picture; default: the file's name with .site.png");
+    add_sets(*look, s, "A parameter, as for run; may be repeated");
+    add_common(*look, s);
     CLI::App* make = app.add_subcommand("generate", "Writes a synthetic site as GeoJSON");
     make->add_option("KIND", site.kind, "town | city | flat")->required();
     make->add_option("--seed", site.seed, "Another seed, another site")->capture_default_str();
@@ -217,6 +246,7 @@ int dispatch(int argc, char** argv, const Ranks& ranks) {
     if (precompute->parsed()) return run_or_precompute(s, false, ranks);
     if (!ranks.leader()) return 0;  // the other commands are for one process
     if (check->parsed()) return verify(s);
+    if (look->parsed()) return look_at_site(s);
     if (make->parsed()) {
         for (const auto& [option, kind] : {std::pair("--rooms", "flat"), {"--size-km", "city"}}) {
             if (make->count(option) > 0 && site.kind != kind) {

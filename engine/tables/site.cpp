@@ -108,6 +108,21 @@ std::vector<Border> pieces_in(const std::vector<Border>& border, double y_min, d
     return out;
 }
 
+// Pieces are numbered with 32 bits.
+void check_piece_count(const Site& site, double partition_m) {
+    double pieces = 0;
+    for (const Wall& w : site.walls) {
+        if (!w.scanned) continue;
+        pieces += (w.free_side[left] + w.free_side[right]) * std::ceil(w.length_m() / partition_m);
+    }
+    constexpr double most = 2e9;
+    if (pieces <= most) return;
+    throw UsageError(
+        fmt::format("coverage.partition_m = {}: {:.3g} pieces of wall, of which {:.0g} can be "
+                    "numbered; choose longer ones or crop_m",
+                    partition_m, pieces, most));
+}
+
 // One line for people.
 std::string site_text(const Site& site) {
     const CleaningCounts& c = site.counts;
@@ -200,6 +215,7 @@ Site read_ground(const GroundOptions& o, const Threads& threads, Progress& progr
     }
     for (const std::string& w : read.warnings) progress.warn(w);
     progress.note(site_text(site));
+    check_piece_count(site, o.partition_m);
     if (!o.required.empty()) {
         check_points(o.required, site.required, site, forbidden_border(o, site), "plan.required");
     }

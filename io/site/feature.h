@@ -72,9 +72,26 @@ struct FeaturesByRole {
     const std::vector<Line>& line(Role r) const { return lines[static_cast<std::size_t>(r)]; }
 };
 
+// Why features are what they are: those of one layer that say the same.
+struct ReadAs {
+    std::string layer;
+    std::string text;  // the class, type, layer or tag that told; empty: the shape did
+    std::string role;  // "left out" for none
+    std::string why;   // site.roles, word, tag, shape
+    std::int64_t count = 0;
+};
+
+// How a file was understood.
+struct HowRead {
+    std::string format;
+    std::string unit;  // of the file, in words
+    std::vector<ReadAs> as;
+};
+
 // All that was read from one file.
 struct FeatureSet {
     std::vector<Feature> features;
+    HowRead how;
     std::string crs_wkt;  // empty when unknown
     // From longitude and latitude to these coordinates; empty where the file has no degrees.
     std::function<Vec2d(const Vec2d&)> from_degrees;

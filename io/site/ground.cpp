@@ -247,6 +247,10 @@ private:
             voids[idx(t)] =
                 !listed[idx(t)] && !taken(t) && !outside_[idx(t)] && !out_.reached[idx(t)];
         }
+        out_.left_out.assign(n_, false);
+        for (std::int32_t t = 0; idx(t) < n_; ++t) {
+            out_.left_out[idx(t)] = (listed[idx(t)] || voids[idx(t)]) && !out_.free[idx(t)];
+        }
         const auto everywhere = [](std::int32_t, std::size_t) { return true; };
         for (const Part& p : parts(voids, everywhere)) drop(p, DropReason::narrow);
         for (auto& [part, dropped] : dropped_) {

@@ -140,9 +140,9 @@ public:
         });
     }
 
-    // Closed rings around the free triangles. What lies along a wall lies on it, not where noding
+    // Closed rings around triangles. What lies along a wall lies on it, not where noding
     // put it.
-    std::vector<Border> border(const Ground& ground) const {
+    std::vector<Border> border(const std::vector<bool>& inside) const {
         std::map<LatticePoint, Vec2d> moved;
         each_wall_along([&](std::size_t wall, std::size_t e) {
             const Noded::Edge& edge = walls_.noded.edges[wall];
@@ -166,11 +166,11 @@ public:
         };
         std::vector<Border> out;
         for (std::size_t t = 0; t < s_.triangles.triangles.size(); ++t) {
-            if (!ground.free[t]) continue;
+            if (!inside[t]) continue;
             const Triangle& triangle = s_.triangles.triangles[t];
             for (std::size_t i = 0; i < 3; ++i) {
                 const std::int32_t to = triangle.neighbour[i];
-                if (to >= 0 && ground.free[idx(to)]) continue;
+                if (to >= 0 && inside[idx(to)]) continue;
                 out.push_back(
                     {place(triangle.vertex[(i + 1) % 3]), place(triangle.vertex[(i + 2) % 3])});
             }
@@ -233,7 +233,8 @@ void build_indoor(const FeaturesByRole& in, const SiteOptions& options, Site& si
         site.extent.add(wall.b);
     }
     sort_walls(site.walls);
-    site.free_border = plan.border(ground);
+    site.free_border = plan.border(ground.free);
+    site.left_out_border = plan.border(ground.left_out);
     site.area_m2 = ground.area_m2;
     site.dropped = std::move(ground.dropped);
     const auto rooms = static_cast<std::int64_t>(in.polys(Role::room).size());

@@ -149,6 +149,7 @@ SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::str
     SiteResult out;
     Site& site = out.site;
     out.warnings = set.warnings;
+    out.how = set.how;
     site.crs_wkt = set.crs_wkt;
     site.counts.features = static_cast<std::int64_t>(set.features.size()) + set.ignored;
     site.counts.ignored = set.ignored;

@@ -15,6 +15,7 @@ namespace vfplan {
 struct SiteResult {
     Site site;
     std::vector<std::string> warnings;
+    HowRead how;
     std::vector<Vec2d> points;  // options.points in the input's metres
 };
 

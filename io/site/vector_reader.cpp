@@ -11,10 +11,12 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <sstream>
+#include <tuple>
 
 #include "io/site/crs.h"
 #include "io/site/roles.h"
@@ -118,55 +120,57 @@ std::string text_of(OGRFeatureH feature, const char* field) {
 struct Told {
     std::optional<Role> role;  // none: its shape decides
     bool skip = false;         // it is nothing of ours
+    std::string text;          // by which it was told
+    const char* why = "shape";
 };
 
 // OSM: only what is tagged counts, whatever relation it hangs in.
 Told told_by_osm(OGRFeatureH feature, const ReadOptions& options) {
     const std::string building = text_of(feature, "building");
-    if (!building.empty() && building != "no") return {Role::building};
+    if (!building.empty() && building != "no") return {Role::building, false, "building", "tag"};
     if (options.osm_parts &&
         text_of(feature, "other_tags").find("\"building:part\"=>") != std::string::npos) {
-        return {Role::building};
+        return {Role::building, false, "building:part", "tag"};
     }
     if (options.osm_barriers) {
         for (const char* kind : {"wall", "city_wall", "retaining_wall", "fence", "hedge"}) {
-            if (text_of(feature, "barrier") == kind) return {Role::wall};
+            if (text_of(feature, "barrier") == kind) return {Role::wall, false, kind, "tag"};
         }
     }
-    return {std::nullopt, true};
+    return {std::nullopt, true, "no building", "tag"};
 }
 
 // The most telling field first: `class`, then outdoors whether it is a building, then type and
 // layer.
 Told told_by_words(OGRFeatureH feature, const std::string& layer, const ReadOptions& options) {
     constexpr std::array fields = {"class", "Class", "CLASS", "type", "Type", "layer", "Layer"};
+    constexpr std::size_t of_class = 3;
     std::vector<std::string> texts;
     for (const char* field : fields) texts.push_back(text_of(feature, field));
     texts.push_back(layer);
     for (const std::string& text : texts) {
         if (text.empty()) continue;
-        if (const auto role = role_by_rules(options.roles, text)) return {role};
+        if (const auto role = role_by_rules(options.roles, text)) {
+            return {role, false, text, "site.roles"};
+        }
     }
     texts.pop_back();  // what a file's only layer is called tells nothing
+    const bool outdoors = options.kind == SiteKind::outdoor;
     for (std::size_t i = 0; i < texts.size(); ++i) {
-        // A municipality's boundary is no building, whatever shape it has.
-        if (options.kind == SiteKind::outdoor &&
-            (texts[i] == "boundary" || texts[i] == "Boundary")) {
-            return {std::nullopt, true};
-        }
-        if (const auto role = role_of_word(texts[i])) {
-            if (i < 3 || options.kind == SiteKind::indoor) return {role};
-        }
-        if (i == 2 && options.kind == SiteKind::outdoor &&
-            OGR_F_GetFieldIndex(feature, "building") >= 0) {
+        if (i == of_class && outdoors && OGR_F_GetFieldIndex(feature, "building") >= 0) {
             const std::string building = text_of(feature, "building");
-            return {Role::building, building.empty() || building == "no"};
+            const bool none = building.empty() || building == "no";
+            return {Role::building, none, none ? "no building" : "building", "tag"};
         }
+        // A municipality's boundary is no building, whatever shape it has.
+        if (outdoors && (texts[i] == "boundary" || texts[i] == "Boundary")) {
+            return {std::nullopt, true, texts[i], "word"};
+        }
+        if (const auto role = role_of_word(texts[i])) return {role, false, texts[i], "word"};
     }
-    for (const std::string& text : texts) {
-        if (const auto role = role_of_word(text)) return {role};
-    }
-    return {};
+    const auto said =
+        std::find_if(texts.begin(), texts.end(), [](const auto& t) { return !t.empty(); });
+    return {std::nullopt, false, said == texts.end() ? "" : *said, "shape"};
 }
 
 // DXF drawings are one layer to GDAL; their own layers are a field. True when its name contains
@@ -238,6 +242,8 @@ namespace {
 void read_layer(OGRLayerH layer, const std::string& driver, double unit_m,
                 const ReadOptions& options, const std::filesystem::path& file, FeatureSet& out,
                 std::vector<bool>& told) {
+    std::map<std::tuple<std::string, std::string, std::string>, std::int64_t>
+        as;  // text, role, why
     if (!options.where.empty() &&
         OGR_L_SetAttributeFilter(layer, options.where.c_str()) != OGRERR_NONE) {
         throw UsageError(fmt::format("site.where = '{}': {}; {} has the fields it can ask for",
@@ -261,11 +267,17 @@ void read_layer(OGRLayerH layer, const std::string& driver, double unit_m,
         if (what.skip || (feature.polygons.empty() && feature.lines.empty()) ||
             (driver == "DXF" && !options.layer.empty() && !on_dxf_layer(f.get(), options.layer))) {
             ++out.ignored;
+            ++as[{what.text, "left out", what.why}];
             continue;
         }
         feature.role = what.role.value_or(default_role(options.kind, !feature.polygons.empty()));
+        ++as[{what.text, std::string(name_of(feature.role)), what.why}];
         told.push_back(what.role.has_value());
         out.features.push_back(std::move(feature));
+    }
+    for (const auto& [key, count] : as) {
+        const auto& [text, role, why] = key;
+        out.how.as.push_back({OGR_L_GetName(layer), text, role, why, count});
     }
 }
 
@@ -318,10 +330,20 @@ FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& o
     for (std::size_t i = 0; driver == "DXF" && walls_told && i < told.size(); ++i) {
         if (!told[i]) out.features[i].role = Role::ignored;
     }
+    for (ReadAs& as : out.how.as) {
+        if (driver == "DXF" && walls_told && as.why == "shape" && as.role != "left out") {
+            as.role = "ignored";
+            as.why = "other layers have the walls";
+        }
+    }
     if (CPLGetLastErrorType() >= CE_Failure) {
         throw InputError(fmt::format("{}: {}; the file is damaged, export the site again",
                                      file.string(), QuietErrors::last()));
     }
+    out.how.format = driver;
+    out.how.unit = options.unit_m > 0   ? fmt::format("{} m (site.unit_m)", options.unit_m)
+                   : !unit.said.empty() ? unit.said
+                                        : "none said, taken for metres";
     check_coordinates(out, file);
     if (!layers.empty()) settle_crs(out, declared_crs(layers.front(), driver), options, file);
     check_size(out, unit, options, file);

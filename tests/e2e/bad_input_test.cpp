@@ -173,6 +173,8 @@ TEST_F(BadInput, SizesThatDoNotFit) {
     expect(2, {"field.cell_m", "5000", "larger than the site"}, good_job, site,
            {"field.cell_m=5000"});
     expect(2, {"field.cell_m", "1.8e+15 cells", "crop_m"}, good_job, site, {"field.cell_m=1e-6"});
+    expect(2, {"coverage.partition_m", "pieces of wall", "crop_m"}, good_job, site,
+           {"coverage.partition_m=1e-9"});
     expect(3, {"crop_m"}, good_job, site, {"site.crop_m=[500,500,600,600]"});
 }
 

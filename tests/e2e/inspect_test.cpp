@@ -1,0 +1,45 @@
+// Looking at a site before anything is computed, and planning one without a job file.
+#include <fstream>
+
+#include "program.h"
+
+namespace vfplan::test {
+namespace {
+
+void expect_words(const std::string& text, const std::vector<std::string>& words) {
+    for (const std::string& w : words) {
+        EXPECT_NE(text.find(w), std::string::npos) << "no \"" << w << "\" in: " << text;
+    }
+}
+
+TEST(Inspect, SaysHowASiteIsReadAndDrawsIt) {
+    const Scratch scratch;
+    const std::string flat = generated(scratch, "flat");
+    const Output o = vfplan_process({"inspect", flat, "--out", scratch / "flat.png"});
+    EXPECT_EQ(o.code, 0) << o.err;
+    expect_words(o.out, {"GeoJSON", "preset \"indoor\"", "room", "by word", "window", "m2 free",
+                         "left out", "flat.png"});
+    std::ifstream png(scratch / "flat.png", std::ios::binary);
+    std::string head(8, ' ');
+    png.read(head.data(), 8);
+    EXPECT_EQ(head, "\x89PNG\r\n\x1a\n");
+    const std::string town = generated(scratch, "town");
+    const Output t = vfplan_process({"inspect", town, "--out", scratch / "town.png"});
+    EXPECT_EQ(t.code, 0) << t.err;
+    expect_words(t.out, {"preset \"outdoor\"", "637", "building", "solid polygons"});
+}
+
+TEST(Inspect, ASiteIsPlannedWithThePresetThatFits) {
+    const Scratch scratch;
+    const std::string flat = generated(scratch, "flat");
+    vfplan_expect(0,
+                  {"run", flat, "--out", scratch / "out", "--set", "field.cell_m=0.1", "--quiet"});
+    EXPECT_EQ(read_json(scratch / "out/summary.json")["site"]["buildings"], 6);
+    vfplan_expect(0, {"verify", scratch / "out"});
+    const Output no = vfplan_process({"inspect", scratch / "nowhere.geojson"});
+    EXPECT_EQ(no.code, 4);
+    expect_words(no.err, {"nowhere.geojson", "no such file"});
+}
+
+}  // namespace
+}  // namespace vfplan::test
