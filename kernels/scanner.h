@@ -10,9 +10,9 @@ struct Scanner {
     double max_incidence_deg = 90;  // between beam and wall normal; 90 means no limit but this:
 };
 
-// A wall that the beam meets at a smaller angle than this is seen edge-on: nothing of it is observed.
-// Larger by far than what rounding makes of an eye in line with a wall, and far smaller than any
-// scanner's beam: 75 nm beside a wall at 75 m.
+// A wall that the beam meets at a smaller angle than this is seen edge-on: nothing of it is
+// observed. Larger by far than what rounding makes of an eye in line with a wall, and far smaller
+// than any scanner's beam: 75 nm beside a wall at 75 m.
 inline constexpr double edge_on_rad = 1e-9;
 
 }  // namespace vfplan

@@ -135,8 +135,8 @@ Sample try_squares(const GroundOptions& ground, const TableOptions& tables, cons
     for (const double w : squares.weight) all_m += w;
     double tried_m = 0;
     for (const std::size_t square : squares.sample()) {
-        try_part(ground, tables,
-                 part_of_site(site, squares.box(square), ground.range_max_m), threads, out);
+        try_part(ground, tables, part_of_site(site, squares.box(square), ground.range_max_m),
+                 threads, out);
         tried_m += squares.weight[square];
     }
     if (tried_m > 0) out.share = tried_m / all_m;

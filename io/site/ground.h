@@ -13,10 +13,10 @@ namespace vfplan {
 struct Ground {
     std::vector<bool> free;  // by triangle: a station may stand there
     std::vector<bool>
-        reached;             // by triangle: no wall parts it from free ground, so its faces count
+        reached;  // by triangle: no wall parts it from free ground, so its faces count
     std::vector<bool> left_out;  // by triangle: inside, but no ground
     std::int64_t parts = 0;      // of free ground
-    double area_m2 = 0;      // free
+    double area_m2 = 0;          // free
     std::vector<Dropped> dropped;
 };
 
