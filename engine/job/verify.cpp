@@ -9,6 +9,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "engine/job/reread.h"
 #include "engine/job/run_dir.h"
 #include "engine/tables/scenes.h"
 #include "io/tables/coverage_file.h"
@@ -27,6 +28,7 @@ public:
         result_.text += fmt::format("{}  {}\n", good ? "yes" : "NO ", text);
         all_ = all_ && good;
     }
+    void note(const std::string& text) { result_.text += "--   " + text + "\n"; }
     VerifyResult result() {
         result_.good = all_;
         return result_;
@@ -312,6 +314,23 @@ bool fits(const CoverageTables& t, const Plan& plan) {
     return good;
 }
 
+// The walls against the site's own file, when it is still what it was.
+void check_site(const Config& config, const CoverageTables& t, Checks& checks) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(config.site.input, ignored)) {
+        checks.note(fmt::format("{} is not there: walls were not compared with it",
+                                config.site.input.string()));
+        return;
+    }
+    if (job_keys(config, input_hash(config)).tables != t.key) {
+        checks.note(fmt::format("{} has changed: walls were not compared with it",
+                                config.site.input.string()));
+        return;
+    }
+    const Reread found = reread(config, t);
+    for (const std::string& line : found.text) checks.add(line.starts_with("yes"), line.substr(5));
+}
+
 }  // namespace
 
 VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Progress& progress) {
@@ -348,6 +367,7 @@ VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Pro
     check_field(scenes, threads, field, table.plan, config.visibility.kernel, checks);
     check_rays(found.ray_difference, checks);
     check_bound(t, entries, table.plan, checks);
+    check_site(config, t, checks);
     progress.finish();
     return checks.result();
 }

@@ -4,10 +4,8 @@
 #include <geos_c.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
-#include "io/site/groups.h"
 #include "kernels/error.h"
 
 namespace vfplan::planar {
@@ -71,14 +69,6 @@ Geometry collection(int type, std::vector<GEOSGeometry*> parts) {
                    "a collection");
 }
 
-Geometry polygons_of(const std::vector<Polygon>& polygons) {
-    std::vector<GEOSGeometry*> parts;
-    for (const Polygon& p : polygons) {
-        if (p.outer.size() >= 3) parts.push_back(polygon(p).release());
-    }
-    return collection(GEOS_MULTIPOLYGON, std::move(parts));
-}
-
 Geometry lines_of(const std::vector<Line>& lines) {
     std::vector<GEOSGeometry*> parts;
     for (const Line& line : lines) {
@@ -87,21 +77,6 @@ Geometry lines_of(const std::vector<Line>& lines) {
         }
     }
     return collection(GEOS_MULTILINESTRING, std::move(parts));
-}
-
-Line points_of(const GEOSGeometry* g, bool closed) {
-    const GEOSCoordSequence* s = GEOSGeom_getCoordSeq_r(context(), g);
-    unsigned n = 0;
-    GEOSCoordSeq_getSize_r(context(), s, &n);
-    Line out;
-    out.reserve(n);
-    for (unsigned i = 0; i + (closed ? 1 : 0) < n; ++i) {
-        double x = 0;
-        double y = 0;
-        GEOSCoordSeq_getXY_r(context(), s, i, &x, &y);
-        out.emplace_back(x, y);
-    }
-    return out;
 }
 
 // Calls f for every polygon (or line) in a geometry of any nesting.
@@ -116,28 +91,6 @@ void each_part(const GEOSGeometry* g, int wanted, F&& f) {
     for (int i = 0; i < GEOSGetNumGeometries_r(context(), g); ++i) {
         each_part(GEOSGetGeometryN_r(context(), g, i), wanted, f);
     }
-}
-
-std::vector<Polygon> polygons_in(const Geometry& g) {
-    GEOSNormalize_r(context(), g.get());  // one order and one start, whatever GEOS did
-    std::vector<Polygon> out;
-    each_part(g.get(), GEOS_POLYGON, [&](const GEOSGeometry* part) {
-        Polygon p;
-        p.outer = points_of(GEOSGetExteriorRing_r(context(), part), true);
-        for (int i = 0; i < GEOSGetNumInteriorRings_r(context(), part); ++i) {
-            p.holes.push_back(points_of(GEOSGetInteriorRingN_r(context(), part, i), true));
-        }
-        out.push_back(std::move(p));
-    });
-    return out;
-}
-
-std::vector<Line> lines_in(const Geometry& g) {
-    GEOSNormalize_r(context(), g.get());
-    std::vector<Line> out;
-    each_part(g.get(), GEOS_LINESTRING,
-              [&](const GEOSGeometry* part) { out.push_back(points_of(part, false)); });
-    return out;
 }
 
 }  // namespace
@@ -164,120 +117,6 @@ std::string invalid_reason(const Polygon& p) {
     return out;
 }
 
-std::vector<Polygon> repaired(const Polygon& p) {
-    if (p.outer.size() < 3) return {};
-    return polygons_in(checked(GEOSMakeValid_r(context(), polygon(p).get()), "a repair"));
-}
-
-namespace {
-
-// The polygon with its points on the grid, when that is all there is to do: nothing of it comes so
-// near to itself that rounding could make it touch. Null otherwise.
-Geometry rounded(const Polygon& p, double snap_m) {
-    const auto round = [&](const Ring& in) {
-        Ring out;
-        for (const Vec2d& v : in) {
-            const Vec2d w(std::round(v.x() / snap_m) * snap_m, std::round(v.y() / snap_m) * snap_m);
-            if (out.empty() || w != out.back()) out.push_back(w);
-        }
-        while (out.size() > 1 && out.back() == out.front()) out.pop_back();
-        return out;
-    };
-    Polygon on_grid;
-    on_grid.outer = round(p.outer);
-    if (on_grid.outer.size() < 3) return nullptr;
-    for (const Ring& hole : p.holes) {
-        on_grid.holes.push_back(round(hole));
-        if (on_grid.holes.back().size() < 3) return nullptr;
-    }
-    Geometry g = polygon(on_grid);
-    double clearance_m = 0;
-    if (GEOSisValid_r(context(), g.get()) != 1 ||
-        GEOSMinimumClearance_r(context(), g.get(), &clearance_m) != 0 || clearance_m < 2 * snap_m) {
-        return nullptr;
-    }
-    return g;
-}
-
-}  // namespace
-
-Box bounds(const Line& points) {
-    Box box;
-    for (const Vec2d& v : points) box.add(v);
-    return box;
-}
-
-// Group by group: one union of everything would node all that is there again and again.
-std::vector<Polygon> unite(const std::vector<Polygon>& polygons, double snap_m) {
-    if (polygons.empty()) return {};
-    std::vector<Geometry> parts;
-    std::vector<Box> boxes;
-    for (const Polygon& p : polygons) boxes.push_back(bounds(p.outer));
-    for (const std::vector<std::size_t>& group : neighbour_groups(boxes, 4 * snap_m)) {
-        if (group.size() == 1) {
-            if (Geometry alone = rounded(polygons[group.front()], snap_m)) {
-                parts.push_back(std::move(alone));
-                continue;
-            }
-        }
-        std::vector<Polygon> members;
-        for (const std::size_t i : group) members.push_back(polygons[i]);
-        const Geometry united =
-            checked(GEOSUnaryUnionPrec_r(context(), polygons_of(members).get(), snap_m), "a union");
-        // A union of one polygon comes back as it was, off the grid.
-        parts.push_back(
-            checked(GEOSGeom_setPrecision_r(context(), united.get(), snap_m, 0), "snapping"));
-    }
-    std::vector<GEOSGeometry*> released;
-    for (Geometry& part : parts) released.push_back(part.release());
-    return polygons_in(collection(GEOS_GEOMETRYCOLLECTION, std::move(released)));
-}
-
-std::vector<Polygon> subtract(const std::vector<Polygon>& from, const std::vector<Polygon>& what,
-                              double snap_m) {
-    if (from.empty() || what.empty()) return from;
-    return polygons_in(
-        checked(GEOSDifferencePrec_r(context(), polygons_of(unite(from, snap_m)).get(),
-                                     polygons_of(unite(what, snap_m)).get(), snap_m),
-                "a difference"));
-}
-
-std::vector<Polygon> intersect(const std::vector<Polygon>& a, const std::vector<Polygon>& b,
-                               double snap_m) {
-    if (a.empty() || b.empty()) return {};
-    return polygons_in(
-        checked(GEOSIntersectionPrec_r(context(), polygons_of(unite(a, snap_m)).get(),
-                                       polygons_of(unite(b, snap_m)).get(), snap_m),
-                "an intersection"));
-}
-
-std::vector<Polygon> grow(const std::vector<Polygon>& polygons, double distance_m) {
-    if (polygons.empty()) return {};
-    return polygons_in(
-        checked(GEOSBufferWithStyle_r(context(), polygons_of(polygons).get(), distance_m, 4,
-                                      GEOSBUF_CAP_SQUARE, GEOSBUF_JOIN_MITRE, 2.0),
-                "a buffer"));
-}
-
-std::vector<Polygon> strips(const std::vector<Line>& lines, double distance_m, bool flat) {
-    if (lines.empty()) return {};
-    return polygons_in(checked(
-        GEOSBufferWithStyle_r(context(), lines_of(lines).get(), distance_m, 8,
-                              flat ? GEOSBUF_CAP_FLAT : GEOSBUF_CAP_ROUND, GEOSBUF_JOIN_ROUND, 2.0),
-        "a buffer"));
-}
-
-std::vector<Line> node(const std::vector<Line>& lines, double snap_m) {
-    // Edge by edge: GEOS leaves a line that is alone as it was, crossings with itself and all.
-    std::vector<Line> edges;
-    for (const Line& line : lines) {
-        for (std::size_t i = 1; i < line.size(); ++i) edges.push_back({line[i - 1], line[i]});
-    }
-    if (edges.empty()) return {};
-    return lines_in(
-        checked(GEOSUnaryUnionPrec_r(context(), lines_of(edges).get(), snap_m), "noding"));
-}
-
 double inscribed_radius(const std::vector<Line>& border, double tolerance) {
     const Geometry area =
         checked(GEOSBuildArea_r(context(), lines_of(border).get()), "building an area");
@@ -292,78 +131,51 @@ double inscribed_radius(const std::vector<Line>& border, double tolerance) {
     return largest;
 }
 
-double area_m2(const std::vector<Polygon>& polygons) {
-    double area = 0;
-    if (!polygons.empty()) GEOSArea_r(context(), polygons_of(polygons).get(), &area);
-    return area;
-}
-
-struct Region::Impl {
-    Geometry geometry;
+struct Drawn::Impl {
+    Geometry solids;
     const GEOSPreparedGeometry* prepared = nullptr;
+    double lines_m = 0;
 };
 
-Region::Region(const std::vector<Polygon>& polygons) : impl_(new Impl{polygons_of(polygons)}) {
-    impl_->prepared = GEOSPrepare_r(context(), impl_->geometry.get());
+Drawn::Drawn(const std::vector<Polygon>& solids, const std::vector<Line>& lines, double snap_m)
+    : impl_(std::make_unique<Impl>()) {
+    std::vector<GEOSGeometry*> parts;
+    for (const Polygon& p : solids) {
+        if (p.outer.size() < 3) continue;
+        Geometry g = polygon(p);
+        if (GEOSisValid_r(context(), g.get()) != 1) {
+            g = checked(GEOSMakeValid_r(context(), g.get()), "a repair");
+        }
+        parts.push_back(g.release());
+    }
+    const Geometry all = collection(GEOS_GEOMETRYCOLLECTION, std::move(parts));
+    impl_->solids = checked(GEOSUnaryUnionPrec_r(context(), all.get(), snap_m), "a union");
+    impl_->prepared = GEOSPrepare_r(context(), impl_->solids.get());
+    if (lines.empty()) return;
+    const Geometry once =
+        checked(GEOSUnaryUnionPrec_r(context(), lines_of(lines).get(), snap_m), "a union");
+    const Geometry outside = checked(
+        GEOSDifferencePrec_r(context(), once.get(), impl_->solids.get(), snap_m), "a difference");
+    GEOSLength_r(context(), outside.get(), &impl_->lines_m);
 }
 
-Region::~Region() {
-    GEOSPreparedGeom_destroy_r(context(), impl_->prepared);
-    delete impl_;
+Drawn::~Drawn() { GEOSPreparedGeom_destroy_r(context(), impl_->prepared); }
+
+double Drawn::wall_length_m() const {
+    double border_m = 0;
+    GEOSLength_r(context(), impl_->solids.get(), &border_m);
+    return border_m + impl_->lines_m;
 }
 
-bool Region::contains(const Vec2d& p) const {
+double Drawn::solid_area_m2() const {
+    double area_m2 = 0;
+    GEOSArea_r(context(), impl_->solids.get(), &area_m2);
+    return area_m2;
+}
+
+bool Drawn::solid(const Vec2d& p) const {
     const Geometry point(GEOSGeom_createPointFromXY_r(context(), p.x(), p.y()));
     return GEOSPreparedContains_r(context(), impl_->prepared, point.get()) == 1;
-}
-
-struct LineIndex::Impl {
-    std::vector<Line> lines;
-    std::vector<std::size_t> number;
-    std::vector<Geometry> boxes;
-    GEOSSTRtree* tree = nullptr;
-};
-
-LineIndex::LineIndex(const std::vector<Line>& lines) : impl_(new Impl{lines, {}, {}}) {
-    impl_->tree = GEOSSTRtree_create_r(context(), 8);
-    impl_->number.resize(lines.size());
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-        impl_->number[i] = i;
-        impl_->boxes.push_back(
-            Geometry(GEOSGeom_createLineString_r(context(), sequence(lines[i], false))));
-        GEOSSTRtree_insert_r(context(), impl_->tree, impl_->boxes.back().get(), &impl_->number[i]);
-    }
-}
-
-LineIndex::~LineIndex() {
-    GEOSSTRtree_destroy_r(context(), impl_->tree);
-    delete impl_;
-}
-
-std::vector<std::size_t> LineIndex::near(const Vec2d& p, double distance_m) const {
-    const Vec2d d(distance_m, distance_m);
-    const Geometry box(GEOSGeom_createLineString_r(context(), sequence({p - d, p + d}, false)));
-    std::vector<std::size_t> hits;
-    GEOSSTRtree_query_r(
-        context(), impl_->tree, box.get(),
-        [](void* item, void* list) {
-            static_cast<std::vector<std::size_t>*>(list)->push_back(
-                *static_cast<std::size_t*>(item));
-        },
-        &hits);
-    std::erase_if(hits, [&](std::size_t i) {
-        const Line& line = impl_->lines[i];
-        for (std::size_t k = 1; k < line.size(); ++k) {
-            const Vec2d e = line[k] - line[k - 1];
-            const double t = e.squaredNorm() > 0
-                                 ? std::clamp((p - line[k - 1]).dot(e) / e.squaredNorm(), 0.0, 1.0)
-                                 : 0.0;
-            if ((line[k - 1] + e * t - p).norm() <= distance_m) return false;
-        }
-        return true;
-    });
-    std::sort(hits.begin(), hits.end());
-    return hits;
 }
 
 }  // namespace vfplan::planar

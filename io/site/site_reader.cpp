@@ -141,6 +141,19 @@ std::vector<Border> border_of_union(const std::vector<Polygon>& polygons, double
     return out;
 }
 
+FeaturesByRole read_drawing(const std::filesystem::path& file, const SiteOptions& options) {
+    FeatureSet set = read_features(file, options);
+    CleaningCounts ignored;
+    crop(set, options.crop_m, ignored);
+    FeaturesByRole out;
+    for (Feature& f : set.features) {
+        const auto role = static_cast<std::size_t>(f.role);
+        for (Polygon& p : f.polygons) out.polygons[role].push_back(std::move(p));
+        for (Line& line : f.lines) out.lines[role].push_back(std::move(line));
+    }
+    return out;
+}
+
 SiteResult read_site(const std::filesystem::path& file, const SiteOptions& options) {
     return build_site(read_features(file, options), options, file.string());
 }

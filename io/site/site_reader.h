@@ -26,6 +26,9 @@ SiteResult read_site(const std::filesystem::path& file, const SiteOptions& optio
 // The same from features in memory; `name` is used in messages.
 SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::string& name);
 
+// Only what is drawn: the features of the crop by role, in the file's metres, not cleaned.
+FeaturesByRole read_drawing(const std::filesystem::path& file, const SiteOptions& options);
+
 // The border of the union of polygons, for even-odd tests.
 std::vector<Border> border_of_union(const std::vector<Polygon>& polygons, double snap_m);
 
