@@ -16,8 +16,8 @@ std::string invalid_reason(const Polygon& polygon);
 // Radius of the largest circle that fits into what the lines surround, to within `tolerance`.
 double inscribed_radius(const std::vector<Line>& border, double tolerance);
 
-// Solids united and lines beside them, on a grid of `snap_m`, as GEOS makes them: what verify holds a site
-// against.
+// Solids united and lines beside them, on a grid of `snap_m`, as GEOS makes them: what verify holds
+// a site against.
 class Drawn {
 public:
     // Polygons that cross themselves count as make_valid has them.
