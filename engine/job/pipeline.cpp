@@ -24,7 +24,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 void write_json(const std::filesystem::path& file, const Json& json) {
-    write_text(file, json.dump(2) + "\n");
+    write_text(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 // From a site to its tables, on all ranks: field.h5 and coverage.h5, as far as they are missing.

@@ -179,7 +179,8 @@ std::string provenance(const Config& config, const std::string& input_sha256, in
                     {"threads", threads},
                     {"ranks", ranks},
                     {"finished_utc", when}};
-    return j.dump(2) + "\n";
+    // Paths are bytes, and need not be UTF-8; JSON must.
+    return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace vfplan

@@ -41,5 +41,17 @@ TEST(Inspect, ASiteIsPlannedWithThePresetThatFits) {
     expect_words(no.err, {"nowhere.geojson", "no such file"});
 }
 
+TEST(Inspect, APathNeedNotBeUtf8) {
+    const Scratch scratch;
+    const std::string folder = scratch / "caf\xe9";
+    std::filesystem::create_directory(folder);
+    std::filesystem::rename(generated(scratch, "flat"), folder + "/flat.geojson");
+    const Words run = {"run",   folder + "/flat.geojson", "--out",  folder + "/out",
+                       "--set", "field.cell_m=0.1",       "--quiet"};
+    vfplan_expect(0, run);
+    vfplan_expect(0, run);  // goes on where it ended
+    vfplan_expect(0, {"verify", folder + "/out"});
+}
+
 }  // namespace
 }  // namespace vfplan::test
