@@ -13,6 +13,8 @@
 #include <span>
 #include <vector>
 
+#include "kernels/vec.h"
+
 namespace vfplan {
 
 // A place in whole lattice steps (ends of edges) or in fine steps (ends of segments).
@@ -21,6 +23,10 @@ struct LatticePoint {
     std::int64_t y = 0;
     friend auto operator<=>(const LatticePoint&, const LatticePoint&) = default;
 };
+
+inline Vec2d as_vec(const LatticePoint& p) {
+    return {static_cast<double>(p.x), static_cast<double>(p.y)};
+}
 
 // Products of coordinates.
 __extension__ using Wide = __int128;

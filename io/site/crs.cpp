@@ -22,14 +22,6 @@ using Srs = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, SrsRele
 struct TransformDestroyer {
     void operator()(OGRCoordinateTransformationH t) const { OCTDestroyCoordinateTransformation(t); }
 };
-using Transform =
-    std::unique_ptr<std::remove_pointer_t<OGRCoordinateTransformationH>, TransformDestroyer>;
-
-Box bounds(const FeatureSet& set) {
-    Box box;
-    for (const Feature& f : set.features) each_point(f, [&](const Vec2d& v) { box.add(v); });
-    return box;
-}
 
 double longest_edge(const FeatureSet& set) {
     double longest = 0;

@@ -99,4 +99,15 @@ struct FeatureSet {
     std::vector<std::string> warnings;
 };
 
+inline Box bounds(const Feature& feature) {
+    Box box;
+    each_point(feature, [&](const Vec2d& v) { box.add(v); });
+    return box;
+}
+inline Box bounds(const FeatureSet& set) {
+    Box box;
+    for (const Feature& f : set.features) each_point(f, [&](const Vec2d& v) { box.add(v); });
+    return box;
+}
+
 }  // namespace vfplan

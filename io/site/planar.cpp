@@ -167,12 +167,6 @@ double Drawn::wall_length_m() const {
     return border_m + impl_->lines_m;
 }
 
-double Drawn::solid_area_m2() const {
-    double area_m2 = 0;
-    GEOSArea_r(context(), impl_->solids.get(), &area_m2);
-    return area_m2;
-}
-
 bool Drawn::solid(const Vec2d& p) const {
     const Geometry point(GEOSGeom_createPointFromXY_r(context(), p.x(), p.y()));
     return GEOSPreparedContains_r(context(), impl_->prepared, point.get()) == 1;

@@ -28,7 +28,6 @@ public:
 
     double wall_length_m()
         const;  // the solids' border, and the lines outside them, each stretch once
-    double solid_area_m2() const;
     bool solid(const Vec2d& p) const;  // strictly inside; one thread at a time
 
 private:

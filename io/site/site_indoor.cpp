@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <unordered_map>
 
 #include "io/site/ground.h"
 #include "io/site/subdivision.h"
@@ -47,23 +46,20 @@ void add_borders(Linework& to, const FeaturesByRole& in, const SiteOptions& opti
 std::vector<LatticePoint> feet(const std::vector<Noded::Edge>& walls, double near) {
     using Square = std::pair<std::int64_t, std::int64_t>;
     const auto square = [&](double v) { return static_cast<std::int64_t>(std::floor(v / near)); };
-    const auto vec = [](const LatticePoint& p) {
-        return Vec2d(static_cast<double>(p.x), static_cast<double>(p.y));
-    };
     std::map<Square, std::vector<Vec2d>> ends;
     for (const Noded::Edge& w : walls) {
         for (const LatticePoint& p : {w.a, w.b}) {
-            const Vec2d v = vec(p);
+            const Vec2d v = as_vec(p);
             ends[{square(v.x()), square(v.y())}].push_back(v);
         }
     }
     std::vector<LatticePoint> out;
     for (const Noded::Edge& w : walls) {
-        const Vec2d a = vec(w.a);
-        const Vec2d e = vec(w.b) - a;
+        const Vec2d a = as_vec(w.a);
+        const Vec2d e = as_vec(w.b) - a;
         const Vec2d reach(near, near);
-        const Vec2d lo = vec(w.b).cwiseMin(a) - reach;
-        const Vec2d hi = vec(w.b).cwiseMax(a) + reach;
+        const Vec2d lo = as_vec(w.b).cwiseMin(a) - reach;
+        const Vec2d hi = as_vec(w.b).cwiseMax(a) + reach;
         for (std::int64_t x = square(lo.x()); x <= square(hi.x()); ++x) {
             for (auto at = ends.lower_bound({x, square(lo.y())});
                  at != ends.end() && at->first <= Square(x, square(hi.y())); ++at) {
@@ -200,9 +196,7 @@ private:
                    Wide(wall.b.y - wall.a.y) * (e.b.y - e.a.y) >
                0;
     }
-    Vec2d metres(const LatticePoint& p) const {
-        return Vec2d(static_cast<double>(p.x), static_cast<double>(p.y)) * options_.snap_m;
-    }
+    Vec2d metres(const LatticePoint& p) const { return as_vec(p) * options_.snap_m; }
 
     const SiteOptions& options_;
     const Subdivision& walls_;

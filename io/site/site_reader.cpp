@@ -15,10 +15,15 @@
 namespace vfplan {
 namespace {
 
-Box bounds(const Feature& f) {
-    Box box;
-    each_point(f, [&](const Vec2d& v) { box.add(v); });
-    return box;
+// Geometries by role; they leave the features.
+FeaturesByRole by_role(FeatureSet& set) {
+    FeaturesByRole out;
+    for (Feature& f : set.features) {
+        const auto role = static_cast<std::size_t>(f.role);
+        for (Polygon& p : f.polygons) out.polygons[role].push_back(std::move(p));
+        for (Line& line : f.lines) out.lines[role].push_back(std::move(line));
+    }
+    return out;
 }
 
 // A place in degrees where those are meant: where the file has some, and the numbers can be degrees
@@ -26,8 +31,7 @@ Box bounds(const Feature& f) {
 Vec2d site_point(const Vec2d& given, const FeatureSet& set) {
     if (!set.from_degrees || std::abs(given.x()) > 180 || std::abs(given.y()) > 90) return given;
     constexpr double near_m = 1000;
-    Box box;
-    for (const Feature& f : set.features) each_point(f, [&](const Vec2d& v) { box.add(v); });
+    const Box box = bounds(set);
     const Vec2d margin(near_m, near_m);
     if (Box{box.min - margin, box.max + margin}.contains(given)) return given;
     return set.from_degrees(given);
@@ -133,10 +137,7 @@ std::vector<Border> border_of_union(const std::vector<Polygon>& polygons, double
     for (std::size_t e = 0; e < s.noded.edges.size(); ++e) {
         const auto inside = [&](Side side) { return s.kinds[idx(s.triangle_at[e][side])] != 0; };
         if (inside(left) == inside(right)) continue;
-        const auto metres = [&](const LatticePoint& p) -> Vec2d {
-            return Vec2d(static_cast<double>(p.x), static_cast<double>(p.y)) * snap_m;
-        };
-        out.push_back({metres(s.noded.edges[e].a), metres(s.noded.edges[e].b)});
+        out.push_back({as_vec(s.noded.edges[e].a) * snap_m, as_vec(s.noded.edges[e].b) * snap_m});
     }
     return out;
 }
@@ -145,13 +146,7 @@ FeaturesByRole read_drawing(const std::filesystem::path& file, const SiteOptions
     FeatureSet set = read_features(file, options);
     CleaningCounts ignored;
     crop(set, options.crop_m, ignored);
-    FeaturesByRole out;
-    for (Feature& f : set.features) {
-        const auto role = static_cast<std::size_t>(f.role);
-        for (Polygon& p : f.polygons) out.polygons[role].push_back(std::move(p));
-        for (Line& line : f.lines) out.lines[role].push_back(std::move(line));
-    }
-    return out;
+    return by_role(set);
 }
 
 SiteResult read_site(const std::filesystem::path& file, const SiteOptions& options) {
@@ -167,12 +162,7 @@ SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::str
     site.counts.features = static_cast<std::int64_t>(set.features.size()) + set.ignored;
     site.counts.ignored = set.ignored;
     crop(set, options.crop_m, site.counts);
-    Box box;
-    for (Feature& f : set.features) {
-        const Box b = bounds(f);
-        box.add(b.min);
-        box.add(b.max);
-    }
+    const Box box = bounds(set);
     out.points.reserve(options.points.size());
     for (const Vec2d& p : options.points) out.points.push_back(site_point(p, set));
     const bool no_features = set.features.empty();
@@ -181,14 +171,11 @@ SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::str
     }
     settle_invalid(set, options, name, site.counts);
     site.origin = {std::floor(box.min.x()), std::floor(box.min.y())};
-    FeaturesByRole sorted;
     for (Feature& f : set.features) {
         each_point(f, [&](Vec2d& v) { v -= site.origin; });
         if (f.role == Role::ignored || f.role == Role::opening) ++site.counts.ignored;
-        const auto role = static_cast<std::size_t>(f.role);
-        for (Polygon& p : f.polygons) sorted.polygons[role].push_back(std::move(p));
-        for (Line& line : f.lines) sorted.lines[role].push_back(std::move(line));
     }
+    const FeaturesByRole sorted = by_role(set);
     set.features = {};  // a county's are hundreds of megabytes
     if (options.kind == SiteKind::outdoor) {
         build_outdoor(sorted, options, site);

@@ -10,8 +10,6 @@
 namespace vfplan {
 namespace {
 
-Vec2d as_vec(const LatticePoint& p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
-
 // b lies on the straight way from a to c.
 bool straight(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
     const std::int64_t ux = b.x - a.x;

@@ -234,10 +234,6 @@ void collect(OGRGeometryH g, double unit_m, Feature& out) {
     }
 }
 
-}  // namespace
-
-namespace {
-
 // The features of a layer. `told`: by feature, whether its words told its role.
 void read_layer(OGRLayerH layer, const std::string& driver, double unit_m,
                 const ReadOptions& options, const std::filesystem::path& file, FeatureSet& out,

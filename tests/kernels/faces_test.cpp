@@ -9,8 +9,6 @@
 namespace vfplan {
 namespace {
 
-Vec2d as_vec(const LatticePoint& p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
-
 Triangulation triangles_of(const Noded& noded) {
     std::vector<Wall> walls;
     for (const Noded::Edge& e : noded.edges) {

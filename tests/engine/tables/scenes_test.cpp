@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "kernels/exact_scene.h"
@@ -162,6 +164,21 @@ TEST(Scenes, RowsComeInTheOrderOfTheirEyesForAnyThreadsAndMemory) {
     }
 }
 
+// Of a patch's field, in a part of the patch, against a scene of the whole site.
+std::vector<double> errors_in(const City& city, const Window& patch, const Window& part,
+                              const Raster<float>& vf) {
+    std::vector<double> out;
+    for (std::int32_t y = part.y_begin; y < part.y_end; ++y) {
+        for (std::int32_t x = part.x_begin; x < part.x_end; ++x) {
+            const Vec2d eye =
+                city.layout.grid.centre(city.layout.grid.id(patch.x_begin + x, patch.y_begin + y));
+            const auto i = static_cast<std::size_t>(y * (patch.x_end - patch.x_begin) + x);
+            out.push_back(std::abs(static_cast<double>(vf[i]) - city.by_the_whole(eye).vf_rad));
+        }
+    }
+    return out;
+}
+
 TEST(Scenes, TheFieldIsWhatIsSeenFromTheCentres) {
     for (const KernelKind kernel : {KernelKind::exact, KernelKind::embree}) {
         City city(6, 15);
@@ -175,19 +192,10 @@ TEST(Scenes, TheFieldIsWhatIsSeenFromTheCentres) {
             const Window part{0, 0, std::min(16, w.x_end - w.x_begin),
                               std::min(16, w.y_end - w.y_begin)};
             scene.field(part, all, vf);
-            double most = 0;
-            for (std::int32_t y = 0; y < part.y_end; ++y) {
-                for (std::int32_t x = 0; x < part.x_end; ++x) {
-                    const Vec2d eye =
-                        city.layout.grid.centre(city.layout.grid.id(w.x_begin + x, w.y_begin + y));
-                    const auto i = static_cast<std::size_t>(y) *
-                                       static_cast<std::size_t>(w.x_end - w.x_begin) +
-                                   static_cast<std::size_t>(x);
-                    most = std::max(
-                        most, std::abs(static_cast<double>(vf[i]) - city.by_the_whole(eye).vf_rad));
-                }
-            }
-            EXPECT_LT(most, kernel == KernelKind::exact ? 1e-5 : 0.05) << name_of(kernel);
+            const std::vector<double> errors = errors_in(city, w, part, vf);
+            EXPECT_LT(*std::max_element(errors.begin(), errors.end()),
+                      kernel == KernelKind::exact ? 1e-5 : 0.05)
+                << name_of(kernel);
         }
     }
 }
@@ -208,16 +216,9 @@ TEST(Scenes, RaysAreAsManyAsTheFieldNeeds) {
             Raster<float> vf(standable.size(), -1);
             scene.take_rays_enough(standable);
             scene.field(all, standable, vf);
-            double sum = 0;
-            for (std::int32_t y = 0; y < all.y_end; ++y) {
-                for (std::int32_t x = 0; x < all.x_end; ++x) {
-                    const Vec2d eye =
-                        city.layout.grid.centre(city.layout.grid.id(w.x_begin + x, w.y_begin + y));
-                    const auto i = static_cast<std::size_t>(y * all.x_end + x);
-                    sum += std::abs(static_cast<double>(vf[i]) - city.by_the_whole(eye).vf_rad);
-                }
-            }
-            worst = std::max(worst, sum / static_cast<double>(standable.size()));
+            const std::vector<double> errors = errors_in(city, w, all, vf);
+            worst = std::max(worst, std::accumulate(errors.begin(), errors.end(), 0.0) /
+                                        static_cast<double>(errors.size()));
         }
         return worst;
     };

@@ -36,7 +36,7 @@ public:
         for (const Feature& f : set.features) {
             const bool room = f.role == Role::room || f.role == Role::outline;
             for (const Polygon& p : f.polygons) {
-                (room ? rooms_ : solids_).push_back(p);
+                if (!room) solids_.push_back(p);
                 if (f.role == Role::room) continue;
                 add(p.outer, true, f.role);
                 for (const Ring& hole : p.holes) add(hole, true, f.role);
@@ -50,7 +50,6 @@ public:
     bool is_line(std::size_t edge) const { return line_[edge]; }
     Role role(std::size_t edge) const { return role_[edge]; }
     bool solid(const Vec2d& p) const { return inside(solids_, p); }
-    bool in_room(const Vec2d& p) const { return inside(rooms_, p); }
     double clearance(const Vec2d& p) const {
         double out = 1e9;
         for (const Edge& e : edges_) out = std::min(out, e.distance(p));
@@ -92,7 +91,6 @@ private:
     std::vector<bool> line_;
     std::vector<Role> role_;
     std::vector<Polygon> solids_;
-    std::vector<Polygon> rooms_;
 };
 
 // Length of what goes wrong along an edge, in unbroken runs.
