@@ -7,8 +7,8 @@
 
 #include "engine/runtime/parallel.h"
 #include "io/exports/site_png.h"
+#include "io/formats/read_features.h"
 #include "io/site/site_reader.h"
-#include "io/site/vector_reader.h"
 #include "io/tables/crs.h"
 #include "kernels/error.h"
 #include "kernels/index.h"
@@ -126,12 +126,13 @@ Inspection inspect(const Config& config, int thread_count) {
         "crs        {}\n"
         "extent     {:.2f} x {:.2f} m from ({:.2f}, {:.2f})\n"
         "edges      {} read, {} too short, {} repeated, {} split, {} joined, {} inside solids, {} "
-        "slivers\n"
+        "in "
+        "openings, {} slivers\n"
         "walls      {}\n{}"
         "ground     {} {}, {:.2f} m2 {}\n",
         config.site.input.string(), read.how.format, name_of(config.preset), c.features,
         read_as_text(read.how), read.how.unit, crs, size.x(), size.y(), at.x(), at.y(), c.edges_in,
-        c.zero_length, c.duplicates, c.split, c.merged, c.inside_solids, c.slivers,
+        c.zero_length, c.duplicates, c.split, c.merged, c.inside_solids, c.opened, c.slivers,
         site.walls.size(), walls_text(site), site.buildings,
         options.kind == SiteKind::outdoor ? "solid polygons" : "rooms", site.area_m2,
         options.kind == SiteKind::outdoor ? "built over" : "free");

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/tables/shards.h"
-#include "io/site/vector_reader.h"
+#include "io/formats/read_features.h"
 #include "io/tables/site_store.h"
 #include "kernels/coverage.h"
 #include "kernels/error.h"
@@ -94,6 +94,7 @@ Json site_summary(const Site& site) {
               {"split", site.counts.split},
               {"merged", site.counts.merged},
               {"inside_solids", site.counts.inside_solids},
+              {"opened", site.counts.opened},
               {"slivers", site.counts.slivers}}}};
 }
 

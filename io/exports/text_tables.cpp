@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "io/files.h"
-#include "io/site/crs.h"
+#include "io/features/crs.h"
 #include "io/tables/coverage_file.h"
 #include "kernels/index.h"
 

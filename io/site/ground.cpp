@@ -47,7 +47,7 @@ private:
         return orient(corner(tr, 0), corner(tr, 1), corner(tr, 2)) / 2 * options_.snap_m *
                options_.snap_m;
     }
-    bool taken(std::int32_t t) const { return (s_.kinds[idx(t)] & taken_areas) != 0; }
+    bool taken(std::int32_t t) const { return is_taken(s_.kinds[idx(t)]); }
 
     // Marks all that can be come to from the triangles in `front` over sides that `pass` lets
     // through.
@@ -159,7 +159,8 @@ private:
         Kinds all = 0;
         for (const Kinds k : s_.kinds) all = static_cast<Kinds>(all | k);
         std::vector<bool> inside(n_, false);
-        if ((all & bit(outline_area)) != 0) {
+        outlined_ = (all & bit(outline_area)) != 0;
+        if (outlined_) {
             for (std::int32_t t = 0; idx(t) < n_; ++t) {
                 inside[idx(t)] = (s_.kinds[idx(t)] & bit(outline_area)) != 0 && !taken(t);
             }
@@ -237,6 +238,7 @@ private:
     }
 
     // Faces count where they are dropped with no ground: in what is neither reached nor outside.
+    // Beyond an outline there is no ground that could be.
     void list_dropped() {
         std::vector<bool> listed(n_, false);
         for (auto& [part, dropped] : dropped_) {
@@ -244,8 +246,8 @@ private:
         }
         std::vector<bool> voids(n_, false);
         for (std::int32_t t = 0; idx(t) < n_; ++t) {
-            voids[idx(t)] =
-                !listed[idx(t)] && !taken(t) && !outside_[idx(t)] && !out_.reached[idx(t)];
+            voids[idx(t)] = !listed[idx(t)] && !taken(t) && !outside_[idx(t)] &&
+                            !out_.reached[idx(t)] && (inside_[idx(t)] || !outlined_);
         }
         out_.left_out.assign(n_, false);
         for (std::int32_t t = 0; idx(t) < n_; ++t) {
@@ -278,6 +280,7 @@ private:
     std::size_t n_;
     std::vector<bool> outside_;
     std::vector<bool> inside_;
+    bool outlined_ = false;  // outlines say what is inside
     std::vector<std::pair<Part, Dropped>> dropped_;
     Ground out_;
 };

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/site/feature.h"
+#include "io/features/feature.h"
 
 namespace vfplan::planar {
 

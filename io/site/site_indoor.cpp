@@ -23,11 +23,16 @@ Linework wall_linework(const FeaturesByRole& in, const SiteOptions& options) {
     for (const Role r : {Role::wall, Role::building}) add_all(out, in, r, solid_wall);
     add_all(out, in, Role::outline, {outline_area, WallClass::wall});
     add_all(out, in, Role::obstacle, {obstacle_area, WallClass::obstacle});
+    constexpr Source opening{opened_area, {}};
     if (options.windows != WindowMode::opening) {
-        add_all(out, in, Role::window, {solid_area, WallClass::window});
+        add_all(out, in, Role::window, {window_area, WallClass::window});
+    } else {
+        for (const Polygon& p : in.polys(Role::window)) out.add(p, opening);
     }
     if (options.doors == DoorMode::closed) {
         add_all(out, in, Role::door, {solid_area, WallClass::door});
+    } else {
+        for (const Polygon& p : in.polys(Role::door)) out.add(p, opening);
     }
     return out;
 }
@@ -211,7 +216,8 @@ private:
 
 void build_indoor(const FeaturesByRole& in, const SiteOptions& options, Site& site) {
     const Linework drawn = wall_linework(in, options);
-    const Subdivision walls = subdivide(drawn);
+    Subdivision walls = subdivide(drawn);
+    settle_openings(walls);
     count_edges(drawn, walls.noded, site.counts);
     site.repaired_at = self_crossings(drawn, walls.noded);
     std::vector<EdgeUse> use = walls_among(walls, site.counts);

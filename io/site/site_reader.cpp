@@ -4,11 +4,11 @@
 
 #include <cmath>
 
+#include "io/formats/read_features.h"
 #include "io/site/planar.h"
 #include "io/site/site_indoor.h"
 #include "io/site/site_outdoor.h"
 #include "io/site/subdivision.h"
-#include "io/site/vector_reader.h"
 #include "kernels/error.h"
 #include "kernels/index.h"
 
@@ -68,7 +68,8 @@ std::vector<std::vector<std::string>> reasons_of(const FeatureSet& set,
 
 void settle_invalid(FeatureSet& set, const SiteOptions& options, const std::string& name,
                     CleaningCounts& counts) {
-    // Where they are to be repaired nobody has to ask: see kernels/faces.h.
+    // Where they are to be repaired nobody has to ask: see kernels/faces.h. A room is no wall: what
+    // its ring surrounds is its floor, however it runs.
     const bool ask = options.invalid != InvalidPolygons::repair;
     const auto reasons = ask ? reasons_of(set, options) : std::vector<std::vector<std::string>>();
     for (std::size_t i = 0; i < set.features.size(); ++i) {
@@ -79,7 +80,8 @@ void settle_invalid(FeatureSet& set, const SiteOptions& options, const std::stri
             Polygon& p = f.polygons[k];
             // A point or a line drawn as a polygon has no area to lose.
             const bool empty = p.outer.size() < 3;
-            if (empty || (ask && !reasons[i][k].empty())) {
+            const bool wrong = ask && f.role != Role::room && !reasons[i][k].empty();
+            if (empty || wrong) {
                 if (!empty && options.invalid == InvalidPolygons::error) {
                     throw InputError(fmt::format(
                         "{}: feature {}{}{}: {}; correct the polygon, or set site.invalid = "

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/site/feature.h"
+#include "io/features/feature.h"
 #include "io/site/site_options.h"
 #include "kernels/wall.h"
 
