@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 #include <string_view>
 
 #include "io/features/role_tally.h"
@@ -102,12 +103,17 @@ Ring ring_of(Numbers& in) {
 }  // namespace
 
 bool looks_like_art_gallery(const std::string& head) {
-    const bool of_numbers = std::all_of(head.begin(), head.end(), [](unsigned char c) {
-        return std::isdigit(c) != 0 || std::isspace(c) != 0 ||
-               std::string_view("+-/.eE").find(static_cast<char>(c)) != std::string_view::npos;
-    });
-    return of_numbers && std::any_of(head.begin(), head.end(),
-                                     [](unsigned char c) { return std::isdigit(c) != 0; });
+    std::istringstream words(head);
+    std::string count;
+    std::string x;
+    std::string y;
+    if (!(words >> count >> x >> y)) return false;
+    const auto made_of = [](const std::string& word, const char* signs) {
+        return std::isdigit(static_cast<unsigned char>(word.back())) != 0 &&
+               word.find_first_not_of(signs) == std::string::npos;
+    };
+    constexpr const char* of_numbers = "0123456789+-./eE";
+    return made_of(count, "0123456789") && made_of(x, of_numbers) && made_of(y, of_numbers);
 }
 
 Drawing read_art_gallery(const std::string& text, const std::filesystem::path& file,

@@ -61,8 +61,8 @@ public:
             return united(out, places_);
         };
         if (named) return with([](const Surface& s) { return s.ground; });
-        const auto down = with([&](const Surface& s) { return area(s) < 0; });
-        return down.empty() ? with([&](const Surface& s) { return area(s) != 0; }) : down;
+        const auto down = with([&](const Surface& s) { return !upright(s) && area(s) < 0; });
+        return down.empty() ? with([&](const Surface& s) { return !upright(s); }) : down;
     }
 
 private:
@@ -75,14 +75,25 @@ private:
     // Twice the area of the outer ring from above: negative where the surface looks down.
     double area(const Surface& s) const {
         double sum = 0;
+        each_corner(s, [&](double turn) { sum += turn; });
+        return sum;
+    }
+    // From above it is a line.
+    bool upright(const Surface& s) const {
+        constexpr double flat_m2 = 1e-6;
+        double most = 0;
+        each_corner(s, [&](double turn) { most = std::max(most, std::abs(turn)); });
+        return most < flat_m2;
+    }
+    template <class F>
+    void each_corner(const Surface& s, F&& f) const {
         const Corners& ring = s.rings.front();
         for (std::size_t i = 0; i < ring.size(); ++i) {
-            sum += cross(places_[ring.at(i)] - places_[ring[0]],
-                         places_[ring[(i + 1) % ring.size()]] - places_[ring[0]]);
+            f(cross(places_[ring[i]] - places_[ring[0]],
+                    places_[ring[(i + 1) % ring.size()]] - places_[ring[0]]));
         }
-        constexpr double upright = 1e-6;  // m2
-        return std::abs(sum) < upright ? 0 : sum;
     }
+
     std::vector<Surface> surfaces_of(const JsonAt& geometry) const {
         const std::string type = geometry["type"].text();
         const std::map<std::string, int> lists_around = {{"MultiSurface", 0},

@@ -123,8 +123,10 @@ QuietGdal::~QuietGdal() { CPLPopErrorHandler(); }
 std::string QuietGdal::last() {
     const std::string said = CPLGetLastErrorMsg();
     const auto source = said.find(".cpp, ");
-    const auto end = source == std::string::npos ? source : said.find(": ", source);
-    return end == std::string::npos ? said : said.substr(end + 2);
+    if (source == std::string::npos) return said;
+    const auto end = said.find_first_of(":,", source + 6);
+    const auto text = end == std::string::npos ? end : said.find_first_not_of(" :,", end);
+    return text == std::string::npos ? said : said.substr(text);
 }
 bool QuietGdal::failed() { return CPLGetLastErrorType() >= CE_Failure; }
 
@@ -147,6 +149,7 @@ void use_gdal() {
 
 PackedFile look_into(const std::filesystem::path& file) {
     use_gdal();
+    const QuietGdal quiet;
     const std::string path = file.string();
     if (!std::filesystem::exists(file)) {
         throw IoError(fmt::format(
@@ -167,7 +170,7 @@ PackedFile look_into(const std::filesystem::path& file) {
     if (head.rfind("\x1f\x8b", 0) == 0) {
         const std::string name = "/vsigzip/" + path;
         std::string inside = read_head(name);
-        if (inside.empty()) {
+        if (inside.empty() || QuietGdal::failed()) {
             throw InputError(fmt::format(
                 "{}: a gzip file that is empty or damaged; pack or fetch it again", path));
         }
@@ -176,25 +179,31 @@ PackedFile look_into(const std::filesystem::path& file) {
     return {path, std::move(head)};
 }
 
-std::string read_text(const PackedFile& packed, const std::filesystem::path& file) {
-    constexpr std::size_t most = std::size_t{1} << 30;
+void each_part(const PackedFile& packed, const std::filesystem::path& file,
+               const std::function<void(std::string_view)>& f) {
     const QuietGdal quiet;
     const VsiFile in(VSIFOpenL(packed.name.c_str(), "rb"));
     if (!in) throw IoError(fmt::format("{}: cannot be opened", file.string()));
-    std::string text;
     std::array<char, 1 << 16> part{};
     while (const std::size_t n = VSIFReadL(part.data(), 1, part.size(), in.get())) {
-        text.append(part.data(), n);
-        if (text.size() > most) {
-            throw InputError(fmt::format(
-                "{}: more than 1 GiB of text; cut the site into parts, or convert it to GeoPackage",
-                file.string()));
-        }
+        f({part.data(), n});
     }
     if (QuietGdal::failed()) {
         throw InputError(fmt::format("{}: {}; the file is damaged, export the site again",
                                      file.string(), QuietGdal::last()));
     }
+}
+
+std::string read_text(const PackedFile& packed, const std::filesystem::path& file) {
+    constexpr std::size_t most = std::size_t{1} << 30;
+    std::string text;
+    each_part(packed, file, [&](std::string_view part) {
+        text += part;
+        if (text.size() <= most) return;
+        throw InputError(fmt::format(
+            "{}: more than 1 GiB of text; cut the site into parts, or convert it to GeoPackage",
+            file.string()));
+    });
     return text;
 }
 

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vfplan {
@@ -52,6 +54,11 @@ struct PackedFile {
 // Shapefiles), else its Home.xml, else its only file that can be a site. Throws IoError when there
 // is no such file, InputError when it is empty, or an archive without a site or with several.
 PackedFile look_into(const std::filesystem::path& file);
+
+// Calls f(part) for one part of an unpacked file after the other. Throws InputError when it is
+// damaged.
+void each_part(const PackedFile& packed, const std::filesystem::path& file,
+               const std::function<void(std::string_view)>& f);
 
 // All of an unpacked file, at most 1 GiB. Throws InputError when it is longer or damaged.
 std::string read_text(const PackedFile& packed, const std::filesystem::path& file);

@@ -16,19 +16,55 @@ std::string place_in(const std::string& text, std::size_t byte) {
     return fmt::format("{}:{}", line, newline - std::make_reverse_iterator(end) + 1);
 }
 
+namespace {
+
+[[noreturn]] void no_json(const std::string& text, const std::filesystem::path& file,
+                          std::size_t byte) {
+    throw InputError(
+        fmt::format("{}:{}: {}; the file is damaged, export the site again", file.string(),
+                    place_in(text, byte > 0 ? byte - 1 : 0),
+                    byte >= text.size() ? "the file ends in the middle" : "this is no JSON"));
+}
+
+// Takes everything, keeps nothing but the place of the first error.
+class Listener : public nlohmann::json_sax<nlohmann::json> {
+public:
+    bool null() override { return true; }
+    bool boolean(bool) override { return true; }
+    bool number_integer(number_integer_t) override { return true; }
+    bool number_unsigned(number_unsigned_t) override { return true; }
+    bool number_float(number_float_t, const string_t&) override { return true; }
+    bool string(string_t&) override { return true; }
+    bool binary(binary_t&) override { return true; }
+    bool start_object(std::size_t) override { return true; }
+    bool key(string_t&) override { return true; }
+    bool end_object() override { return true; }
+    bool start_array(std::size_t) override { return true; }
+    bool end_array() override { return true; }
+    bool parse_error(std::size_t position, const std::string&,
+                     const nlohmann::json::exception&) override {
+        wrong_at = position;
+        return false;
+    }
+    std::size_t wrong_at = 0;
+};
+
+}  // namespace
+
 nlohmann::json parse_json(const std::string& text, const std::filesystem::path& file) {
-    std::string why;
-    std::size_t byte = 0;
     try {
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::parse_error& e) {
-        why = e.byte >= text.size() ? "the file ends in the middle" : "this is no JSON";
-        byte = e.byte;
+        no_json(text, file, e.byte);
     } catch (const nlohmann::json::exception&) {
-        why = "a number in it is too large";
+        throw InputError(
+            fmt::format("{}: a number in it is too large; export the site again", file.string()));
     }
-    throw InputError(fmt::format("{}:{}: {}; the file is damaged, export the site again",
-                                 file.string(), byte > 0 ? place_in(text, byte - 1) : "", why));
+}
+
+void check_json(const std::string& text, const std::filesystem::path& file) {
+    Listener listener;
+    if (!nlohmann::json::sax_parse(text, &listener)) no_json(text, file, listener.wrong_at);
 }
 
 bool JsonAt::has(const char* key) const { return value_->is_object() && value_->contains(key); }

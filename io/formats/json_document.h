@@ -15,6 +15,9 @@ std::string place_in(const std::string& text, std::size_t byte);
 // Throws InputError with line and column.
 nlohmann::json parse_json(const std::string& text, const std::filesystem::path& file);
 
+// Whether a text is JSON, read without being kept. Throws InputError with line and column if not.
+void check_json(const std::string& text, const std::filesystem::path& file);
+
 // A value on its way from the root, so that errors can say where it stands ("/verts/3/0"). Points
 // into the document, which must outlive it. All that it asks for throws InputError when it is not
 // there or of another type.

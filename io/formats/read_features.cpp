@@ -103,7 +103,7 @@ std::optional<Drawing> read_ours(const PackedFile& packed, const std::filesystem
     if (looks_like_art_gallery(head)) {
         return read_art_gallery(read_text(packed, file), file, options);
     }
-    if (looks_like_ros_map(head)) return read_ros_map(read_text(packed, file), file, options);
+    if (looks_like_ros_map(head, file)) return read_ros_map(read_text(packed, file), file, options);
     return {};
 }
 

@@ -12,14 +12,6 @@
 namespace vfplan {
 namespace {
 
-double area_of(const Ring& ring) {
-    double twice = 0;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-        twice += cross(ring[i] - ring[0], ring[(i + 1) % ring.size()] - ring[0]);
-    }
-    return std::abs(twice) / 2;
-}
-
 bool surrounds(const Ring& ring, const Vec2d& p) {
     bool odd = false;
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -75,14 +67,13 @@ std::vector<Ring> rings_along(const std::set<std::pair<std::size_t, std::size_t>
 std::vector<Polygon> polygons_of(const std::vector<Ring>& rings) {
     std::vector<std::size_t> by_size(rings.size());
     std::iota(by_size.begin(), by_size.end(), std::size_t{0});
-    std::vector<double> area;
     std::vector<Box> box(rings.size());
     for (std::size_t i = 0; i < rings.size(); ++i) {
-        area.push_back(area_of(rings[i]));
         for (const Vec2d& v : rings[i]) box[i].add(v);
     }
-    std::stable_sort(by_size.begin(), by_size.end(),
-                     [&](std::size_t a, std::size_t b) { return area[a] > area[b]; });
+    std::stable_sort(by_size.begin(), by_size.end(), [&](std::size_t a, std::size_t b) {
+        return box[a].size().prod() > box[b].size().prod();
+    });
     struct Placed {
         std::size_t ring;
         std::size_t depth;    // rings around it
@@ -91,7 +82,6 @@ std::vector<Polygon> polygons_of(const std::vector<Ring>& rings) {
     std::vector<Placed> placed;
     std::vector<Polygon> out;
     for (const std::size_t i : by_size) {
-        if (area[i] == 0) continue;
         const Placed* around = nullptr;  // the smallest
         for (const Placed& p : placed) {
             if (!box[p.ring].contains(box[i].min) || !box[p.ring].contains(box[i].max)) continue;

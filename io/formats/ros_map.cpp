@@ -142,11 +142,12 @@ MapInfo info_of(const std::string& text, const std::filesystem::path& file) {
 
 }  // namespace
 
-bool looks_like_ros_map(const std::string& head) {
+bool looks_like_ros_map(const std::string& head, const std::filesystem::path& file) {
     const auto has_key = [&](const std::string& key) {
         return head.rfind(key, 0) == 0 || head.find("\n" + key) != std::string::npos;
     };
-    return has_key("image:") && has_key("resolution:");
+    const bool yaml = file.extension() == ".yaml" || file.extension() == ".yml";
+    return has_key("image:") && (yaml || has_key("resolution:"));
 }
 
 Drawing read_ros_map(const std::string& text, const std::filesystem::path& file,

@@ -9,8 +9,9 @@
 
 namespace vfplan {
 
-// Whether a text begins as such a file: it names an image and a resolution.
-bool looks_like_ros_map(const std::string& head);
+// Whether a text begins as such a file: it names an image and a resolution, or an image and is YAML
+// by its name.
+bool looks_like_ros_map(const std::string& head, const std::filesystem::path& file);
 
 // Occupied pixels become walls, free ones rooms, both traced by potrace to polygons that stay
 // within half a pixel of the pixels' border; specks of two pixels are left out, with a warning.

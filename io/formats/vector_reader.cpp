@@ -21,7 +21,9 @@
 #include "io/features/crs.h"
 #include "io/features/role_tally.h"
 #include "io/features/roles.h"
-#include "io/formats/dxf_splines.h"
+#include "io/formats/dxf_text.h"
+#include "io/formats/json_document.h"
+#include "io/formats/osm_text.h"
 #include "kernels/error.h"
 
 namespace vfplan {
@@ -255,6 +257,22 @@ DeclaredCrs declared_crs(OGRLayerH layer, const std::string& driver) {
     return out;
 }
 
+bool is_json(const PackedFile& packed) {
+    const auto first = packed.head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    return first != std::string::npos && packed.head[first] == '{';
+}
+
+// Where in a JSON text the words stand that GDAL complains of, as ":line:column"; empty if nowhere.
+std::string place_of(const std::string& why, const PackedFile& packed,
+                     const std::filesystem::path& file) {
+    const auto from = why.find('\'', why.find(" for ")) + 1;
+    const auto to = why.rfind('\'');
+    if (!is_json(packed) || from == 0 || to == std::string::npos || to <= from) return "";
+    const std::string text = read_text(packed, file);
+    const auto at = text.find(why.substr(from, to - from));
+    return at == std::string::npos ? "" : fmt::format(":{}", place_in(text, at));
+}
+
 }  // namespace
 
 Drawing read_vector(const PackedFile& packed, const std::filesystem::path& file,
@@ -269,6 +287,7 @@ Drawing read_vector(const PackedFile& packed, const std::filesystem::path& file,
     Dataset set = opened(packed.name);
     if (!set) {
         const std::string why = QuietGdal::last();
+        if (is_json(packed)) check_json(read_text(packed, file), file);
         throw InputError(
             fmt::format("{}: not a site that can be read{}{}; docs/formats.md has the "
                         "formats: GeoJSON, GeoPackage, Shapefile, OSM, DXF and more",
@@ -278,18 +297,22 @@ Drawing read_vector(const PackedFile& packed, const std::filesystem::path& file,
     Drawing out;
     if (driver == "DXF") {
         out.unit = unit_of_dxf(packed.head);
-        if (auto drawn = with_splines_drawn(read_text(packed, file))) {
+        const std::string text = read_text(packed, file);
+        check_dxf(text, file);
+        if (auto drawn = with_splines_drawn(text)) {
             changed = std::make_unique<FileInMemory>(std::move(*drawn));
             set = opened(changed->name());
         }
     }
+    if (driver == "OSM" && packed.head.find("<osm") != std::string::npos) check_osm(packed, file);
     std::vector<bool> told;
     const std::vector<OGRLayerH> layers = choose_layers(set.get(), driver, options, file);
     for (OGRLayerH layer : layers) read_layer(layer, driver, options, file, out.set, told);
     if (driver == "DXF") leave_out_fixtures(out.set, told);
     if (QuietGdal::failed()) {
-        throw InputError(fmt::format("{}: {}; the file is damaged, export the site again",
-                                     file.string(), QuietGdal::last()));
+        const std::string why = QuietGdal::last();
+        throw InputError(fmt::format("{}{}: {}; the file is damaged, export the site again",
+                                     file.string(), place_of(why, packed, file), why));
     }
     out.set.how.format = driver;
     if (!layers.empty()) out.crs = declared_crs(layers.front(), driver);

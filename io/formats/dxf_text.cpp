@@ -1,19 +1,22 @@
-#include "io/formats/dxf_splines.h"
+#include "io/formats/dxf_text.h"
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <string_view>
 #include <unsupported/Eigen/Splines>
 #include <vector>
 
-#include "kernels/index.h"
+#include "kernels/error.h"
 #include "kernels/vec.h"
 
 namespace vfplan {
 namespace {
 
 struct Group {
+    std::string_view number;  // its code as it stands there
     int code = 0;
     std::string_view value;
     std::string_view text;  // both lines
@@ -34,7 +37,8 @@ public:
         const std::string_view code = line();
         if (rest_.empty()) return false;
         out.value = trimmed(line());
-        out.code = std::atoi(std::string(trimmed(code)).c_str());
+        out.number = trimmed(code);
+        out.code = std::atoi(std::string(out.number).c_str());
         out.text = begin.substr(0, begin.size() - rest_.size());
         return true;
     }
@@ -102,12 +106,41 @@ struct Entity {
     }
 };
 
+bool in_binary(const std::string& dxf) { return dxf.rfind("AutoCAD Binary DXF", 0) == 0; }
+
+template <class Number>
+bool is_number(std::string_view text) {
+    Number value{};
+    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() &&
+           std::isfinite(static_cast<double>(value));
+}
+
 }  // namespace
 
-std::optional<std::string> with_splines_drawn(const std::string& dxf) {
-    if (dxf.find("SPLINE") == std::string::npos || dxf.rfind("AutoCAD Binary DXF", 0) == 0) {
-        return {};
+void check_dxf(const std::string& dxf, const std::filesystem::path& file) {
+    if (in_binary(dxf)) return;
+    Groups groups(dxf);
+    Group g;
+    for (std::size_t line = 1; groups.next(g); line += 2) {
+        if (!is_number<int>(g.number)) {
+            throw InputError(fmt::format(
+                "{}:{}: '{:.40}' is no group code; the drawing is damaged, export it again",
+                file.string(), line, g.number));
+        }
+        const bool place = g.code >= 10 && g.code <= 39;
+        if (place && !is_number<double>(g.value)) {
+            throw InputError(fmt::format(
+                "{}:{}: the coordinate '{:.40}' is no number; correct the drawing, or export it "
+                "again",
+                file.string(), line + 1, g.value));
+        }
     }
+}
+
+std::optional<std::string> with_splines_drawn(const std::string& dxf) {
+    if (dxf.find("SPLINE") == std::string::npos || in_binary(dxf)) return {};
     std::string out;
     bool any = false;
     Entity now;
