@@ -1,6 +1,8 @@
 // Original files against the GeoJSON that was made of them with other programs: the same walls.
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "io/formats/read_features.h"
 #include "tests/data.h"
 #include "tests/io/formats/walls_apart.h"
@@ -39,6 +41,7 @@ TEST(RawFiles, Delft) {
     VFPLAN_NEED_DATA("town_delft/raw/delft.json");
     const Apart d = compared("town_delft/raw/delft.json", "town_delft/delft_full.geojson", {},
                              {-84616.468, -447422.999});
+    std::printf("Delft: %s\n", d.text().c_str());
     EXPECT_EQ(d.wrong_m, 0) << d.text();
 }
 
@@ -46,6 +49,7 @@ TEST(RawFiles, HouseExpo) {
     VFPLAN_NEED_DATA("plan_houseexpo/raw");
     const Apart d = compared("plan_houseexpo/raw/0a1b29dba355df2ab02630133187bfab.json",
                              "plan_houseexpo/houseexpo_0a1b29db.geojson", indoor(), {0, 0});
+    std::printf("HouseExpo: %s\n", d.text().c_str());
     EXPECT_EQ(d.wrong_m, 0) << d.text();
     EXPECT_EQ(d.slits_m, 0) << d.text();
 }
@@ -56,6 +60,7 @@ TEST(RawFiles, Arlington) {
     VFPLAN_NEED_DATA("plan_arlington_school/raw/Home.xml");
     const Apart d = compared("plan_arlington_school/raw/Home.xml",
                              "plan_arlington_school/arlington_school.geojson", indoor(), {-2, 122});
+    std::printf("Arlington: %s\n", d.text().c_str());
     EXPECT_LT(d.wrong_m, 0.004 * d.length_m[0]) << d.text();
 }
 
@@ -79,6 +84,8 @@ TEST(RawFiles, OfficesAndSchools) {
         equal += d.wrong_m == 0;
         ++files;
     }
+    std::printf("offices and schools: %.2f m of %.2f m apart, %d files not at all\n", wrong_m, all_m,
+                equal);
     EXPECT_EQ(files, 25);
     EXPECT_GE(equal, 12);
     EXPECT_LT(wrong_m, 0.0015 * all_m);
