@@ -139,6 +139,7 @@ double inscribed_radius(const std::vector<Line>& border, double tolerance) {
 
 namespace {
 
+// On a grid, or as exact as doubles are if that is 0.
 Geometry united(const std::vector<Polygon>& polygons, double snap_m) {
     std::vector<GEOSGeometry*> parts;
     for (const Polygon& p : polygons) {
@@ -150,11 +151,15 @@ Geometry united(const std::vector<Polygon>& polygons, double snap_m) {
         parts.push_back(g.release());
     }
     const Geometry all = collection(GEOS_GEOMETRYCOLLECTION, std::move(parts));
-    return checked(GEOSUnaryUnionPrec_r(context(), all.get(), snap_m), "a union");
+    return checked(snap_m > 0 ? GEOSUnaryUnionPrec_r(context(), all.get(), snap_m)
+                              : GEOSUnaryUnion_r(context(), all.get()),
+                   "a union");
 }
 
 Geometry without(const Geometry& a, const Geometry& b, double snap_m) {
-    return checked(GEOSDifferencePrec_r(context(), a.get(), b.get(), snap_m), "a difference");
+    return checked(snap_m > 0 ? GEOSDifferencePrec_r(context(), a.get(), b.get(), snap_m)
+                              : GEOSDifference_r(context(), a.get(), b.get()),
+                   "a difference");
 }
 
 double area_m2(const Geometry& g) {
@@ -188,9 +193,14 @@ struct Drawn::Impl {
 
 Drawn::Drawn(const Parts& parts, double snap_m) : impl_(std::make_unique<Impl>()) {
     impl_->snap_m = snap_m;
-    impl_->solids = united(parts.solids, snap_m);
-    const Geometry openings = united(parts.openings, snap_m);
-    if (!parts.openings.empty()) impl_->solids = without(impl_->solids, openings, snap_m);
+    // Openings end on the faces of walls: rounded one by one they would leave leaves of them.
+    const Geometry openings = united(parts.openings, 0);
+    if (parts.openings.empty()) {
+        impl_->solids = united(parts.solids, snap_m);
+    } else {
+        const Geometry opened = without(united(parts.solids, 0), openings, 0);
+        impl_->solids = checked(GEOSUnaryUnionPrec_r(context(), opened.get(), snap_m), "a union");
+    }
     if (!parts.obstacles.empty()) {
         const Geometry obstacles = united(parts.obstacles, snap_m);
         impl_->solids = checked(
@@ -207,9 +217,9 @@ Drawn::Drawn(const Parts& parts, double snap_m) : impl_(std::make_unique<Impl>()
         }
     }
     if (lines.empty()) return;
-    Geometry once =
-        checked(GEOSUnaryUnionPrec_r(context(), lines_of(lines).get(), snap_m), "a union");
-    if (!parts.openings.empty()) once = without(once, openings, snap_m);
+    Geometry once = lines_of(lines);
+    if (!parts.openings.empty()) once = without(once, openings, 0);
+    once = checked(GEOSUnaryUnionPrec_r(context(), once.get(), snap_m), "a union");
     once = without(once, impl_->solids, snap_m);
     GEOSLength_r(context(), once.get(), &impl_->lines_m);
 }
