@@ -5,6 +5,7 @@
 #include <map>
 
 #include "io/site/ground.h"
+#include "io/site/openings.h"
 #include "io/site/subdivision.h"
 #include "kernels/index.h"
 
@@ -128,6 +129,9 @@ public:
         }
     }
 
+    std::vector<OpeningStep> opening_steps() const {
+        return vfplan::opening_steps(s_, wall_, shut_, options_.snap_m, options_.max_opening_m);
+    }
     Ground find() const { return find_ground(s_, wall_, shut_, options_); }
 
     // A wall's side is free where the ground reaches any of it.
@@ -213,6 +217,17 @@ private:
 };
 
 }  // namespace
+
+std::vector<OpeningStep> indoor_opening_steps(const FeaturesByRole& in, SiteOptions options,
+                                              double up_to_m) {
+    options.max_opening_m = up_to_m;
+    const Linework drawn = wall_linework(in, options);
+    Subdivision walls = subdivide(drawn);
+    settle_openings(walls);
+    CleaningCounts ignored;
+    const std::vector<EdgeUse> use = walls_among(walls, ignored);
+    return Plan(walls, use, drawn, in, options).opening_steps();
+}
 
 void build_indoor(const FeaturesByRole& in, const SiteOptions& options, Site& site) {
     const Linework drawn = wall_linework(in, options);

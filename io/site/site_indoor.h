@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/features/feature.h"
+#include "io/site/openings.h"
 #include "io/site/site_options.h"
 #include "kernels/wall.h"
 
@@ -11,5 +12,9 @@ namespace vfplan {
 // them, else what the walls enclose. Solids (thick walls, obstacles) and slits are
 // taken out of it.
 void build_indoor(const FeaturesByRole& in, const SiteOptions& options, Site& site);
+
+// What would be inside for every site.max_opening_m up to a width (io/site/openings.h).
+std::vector<OpeningStep> indoor_opening_steps(const FeaturesByRole& in, SiteOptions options,
+                                              double up_to_m);
 
 }  // namespace vfplan

@@ -45,6 +45,7 @@ struct SiteOptions : ReadOptions {
     double min_width_m = 0.3;
     double min_room_m2 = 1;
     double max_gap_m2 = 2;
+    double opening_steps_up_to_m = 0;  // how the ground depends on max_opening_m is wanted
     // Calls body(from, to) for disjoint parts of [0, n), perhaps several at once.
     using Body = std::function<void(std::int64_t, std::int64_t)>;
     std::function<void(std::int64_t n, const Body& body)> for_each =

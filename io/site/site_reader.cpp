@@ -183,6 +183,10 @@ SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::str
         build_outdoor(sorted, options, site);
     } else {
         build_indoor(sorted, options, site);
+        if (options.opening_steps_up_to_m > 0) {
+            out.opening_steps =
+                indoor_opening_steps(sorted, options, options.opening_steps_up_to_m);
+        }
     }
     site.counts.walls = static_cast<std::int64_t>(site.walls.size());
     site.counts.repaired = static_cast<std::int64_t>(site.repaired_at.size());
