@@ -93,7 +93,7 @@ std::filesystem::path out_of(const Shared& s) {
 // A job file, or a site that is planned with the preset that fits.
 Config job_or_site(const Shared& s) {
     if (std::filesystem::path(s.job).extension() == ".toml") return read_config(s.job, s.sets);
-    return config_for_site(s.job, s.sets);
+    return bare_site(s.job, s.sets).config;
 }
 
 int run_or_precompute(const Shared& s, bool plan, const Ranks& ranks) {
@@ -171,7 +171,9 @@ int verify(const Shared& s) {
 int look_at_site(const Shared& s) {
     const std::filesystem::path picture =
         s.out.empty() ? std::filesystem::path(s.job).stem().string() + ".site.png" : s.out;
-    const Inspection found = inspect(job_or_site(s), s.threads);
+    const bool job = std::filesystem::path(s.job).extension() == ".toml";
+    BareSite site = job ? BareSite{read_config(s.job, s.sets), {}} : bare_site(s.job, s.sets);
+    const Inspection found = inspect(site.config, s.threads, std::move(site.features));
     write_text(picture, found.picture);
     fmt::print("{}picture    {}\n", found.text, picture.string());
     return 0;

@@ -87,7 +87,7 @@ std::string openings_text(const std::vector<OpeningStep>& steps, double max_open
 
 }  // namespace
 
-Config config_for_site(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+BareSite bare_site(const std::filesystem::path& file, const std::vector<std::string>& sets) {
     const auto job = [&](const std::string& preset, const std::string& crs) {
         std::string text = preset.empty() ? "" : "preset = \"" + preset + "\"\n";
         text += "[site]\n" + (crs.empty() ? "" : "crs = \"" + crs + "\"\n");
@@ -112,17 +112,19 @@ Config config_for_site(const std::filesystem::path& file, const std::vector<std:
         crs = "utm";  // in degrees, perhaps
         set = read(job("", crs));
     }
-    if (given("preset")) return job("", crs);
+    if (given("preset")) return {job("", crs), std::move(set)};
     const bool plan = set.how.format == "DXF" ||
                       std::any_of(set.features.begin(), set.features.end(), [](const Feature& f) {
                           constexpr std::array roles = {Role::room, Role::door, Role::window,
                                                         Role::outline, Role::opening};
                           return std::find(roles.begin(), roles.end(), f.role) != roles.end();
                       });
-    return job(plan ? "indoor" : "outdoor", crs);
+    // Without a preset a job is outdoor.
+    if (!plan) return {job("outdoor", crs), std::move(set)};
+    return {job("indoor", crs), {}};
 }
 
-Inspection inspect(const Config& config, int thread_count) {
+Inspection inspect(const Config& config, int thread_count, std::optional<FeatureSet> features) {
     const Threads threads(thread_count);
     SiteOptions options = ground_options(config).site;
     options.for_each = [&](std::int64_t n, const SiteOptions::Body& body) {
@@ -130,7 +132,9 @@ Inspection inspect(const Config& config, int thread_count) {
     };
     constexpr double widest_m = 6;
     options.opening_steps_up_to_m = std::max(widest_m, 2 * options.max_opening_m);
-    const SiteResult read = read_site(config.site.input, options);
+    const SiteResult read =
+        features ? build_site(std::move(*features), options, config.site.input.string())
+                 : read_site(config.site.input, options);
     const Site& site = read.site;
     const CleaningCounts& c = site.counts;
     const Vec2d size = site.extent.size();

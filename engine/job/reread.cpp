@@ -52,6 +52,9 @@ class Comparison {
 public:
     Comparison(const Config& config, const CoverageTables& t, const FieldFile* field)
         : t_(t), field_(field), options_(ground_options(config).site) {
+        const GroundOptions ground = ground_options(config);
+        all_is_ground_ = options_.kind == SiteKind::outdoor && ground.forbidden.empty() &&
+                         ground.clearance_m == 0;
         const planar::Parts parts = parts_of(read_drawing(config.site.input, options_), options_);
         std::size_t vertices = 0;
         for (const auto* polygons :
@@ -133,6 +136,11 @@ private:
         std::int64_t looked_at = 0;
         std::int64_t wrong = 0;
         std::string first;
+        Box extent;  // beyond its frame of a metre there is no ground
+        for (const Wall& w : t_.walls) {
+            extent.add(t_.origin + w.a);
+            extent.add(t_.origin + w.b);
+        }
         field_->each_band([&](const Window& w, const Raster<float>& vf) {
             for (std::size_t i = 0; i < vf.size(); ++i) {
                 if (number++ % step != step / 2) continue;
@@ -144,7 +152,7 @@ private:
                 ++looked_at;
                 const bool free = !std::isnan(vf[i]);
                 bool good = !free || !*in;
-                if (options_.kind == SiteKind::outdoor) good = free != *in;
+                if (all_is_ground_ && extent.contains(at)) good = free != *in;
                 if (drawn_->has_outlines()) good = good && (!free || drawn_->outlined(at));
                 if (good) continue;
                 ++wrong;
@@ -154,9 +162,8 @@ private:
             }
         });
         add(wrong == 0, fmt::format("{} cells looked at: {} are {}{}", looked_at, wrong,
-                                    options_.kind == SiteKind::outdoor
-                                        ? "free in something solid, or taken beside it"
-                                        : "free in something solid or outside",
+                                    all_is_ground_ ? "free in something solid, or taken beside it"
+                                                   : "free in something solid or outside",
                                     first));
     }
 
@@ -193,6 +200,7 @@ private:
     SiteOptions options_;
     std::unique_ptr<planar::Drawn> drawn_;
     double slack_m_ = 0;
+    bool all_is_ground_ = false;  // that is not solid
     Reread out_;
 };
 

@@ -92,11 +92,15 @@ std::vector<std::pair<Role, std::vector<std::string>>> words_of_roles() {
 }
 
 std::optional<Role> role_of_word(const std::string& text) {
+    if (text.empty()) return std::nullopt;
     static const auto table = words_of_roles();
     const std::vector<std::string> words = words_in(text);
     for (const auto& [role, known] : table) {
         for (const std::string& word : words) {
-            const auto is = [&](const std::string& k) { return word == k || word == k + "s"; };
+            const auto is = [&](const std::string& k) {
+                const bool plural = word.size() == k.size() + 1 && word.back() == 's';
+                return word.compare(0, k.size(), k) == 0 && (word.size() == k.size() || plural);
+            };
             if (std::any_of(known.begin(), known.end(), is)) return role;
         }
     }

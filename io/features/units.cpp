@@ -51,7 +51,9 @@ Unit unit_of_dxf(const std::string& head) {
         }
         break;  // unitless, or a unit of the stars
     }
-    return {};
+    Unit out;
+    out.guessed = true;
+    return out;
 }
 
 void check_size(const FeatureSet& set, const Unit& unit, const ReadOptions& options,
@@ -65,28 +67,33 @@ void check_size(const FeatureSet& set, const Unit& unit, const ReadOptions& opti
     if (box.empty()) return;
     const double size_m = box.size().maxCoeff();
     constexpr double smallest_m = 2;
-    constexpr double largest_m = 2000;
+    const double largest_m = unit.guessed ? 150 : 2000;
     if (!(size_m > 0) || (size_m >= smallest_m && size_m <= largest_m)) return;
-    // The commonest unit that makes a building of it.
-    constexpr std::array<int, 5> commonest_first = {4, 1, 5, 6, 2};
-    const auto sized = [&](const Named& u) { return size_m / unit.metres * u.metres; };
-    const auto of = [](int insunits) {
-        return *std::find_if(units.begin(), units.end(),
-                             [&](const Named& u) { return u.insunits == insunits; });
-    };
-    const auto found = std::find_if(
-        commonest_first.begin(), commonest_first.end(),
-        [&](int insunits) { return sized(of(insunits)) >= 4 && sized(of(insunits)) <= 400; });
-    if (found == commonest_first.end()) return;  // no unit makes sense of it
-    const Named better = of(*found);
-    const double scale = better.metres / unit.metres;
-    throw InputError(
-        fmt::format("{}: {:.3g} x {:.3g} m for a floor plan{}: are these {} ({:.3g} x {:.3g} m)? "
-                    "set site.unit_m = {:g}, "
-                    "or the unit that it is drawn in, in metres",
-                    file.string(), box.size().x(), box.size().y(),
-                    unit.said.empty() ? "" : ", since the file says " + unit.said, better.name,
-                    box.size().x() * scale, box.size().y() * scale, better.metres));
+    // The units that make a building of it, the commonest first.
+    std::string candidates;
+    std::string choices;
+    const Vec2d in_units = box.size() / unit.metres;
+    for (const int insunits : {4, 1, 5, 6, 2}) {
+        const Named& u = *std::find_if(units.begin(), units.end(),
+                                       [&](const Named& n) { return n.insunits == insunits; });
+        const Vec2d size = in_units * u.metres;
+        if (size.maxCoeff() < 4 || size.maxCoeff() > 400) continue;
+        candidates += fmt::format("{}{} ({:.3g} x {:.3g} m)", candidates.empty() ? "" : ", ",
+                                  u.name, size.x(), size.y());
+        choices += fmt::format("{}{:g}", choices.empty() ? "" : ", ", u.metres);
+    }
+    if (candidates.empty() && !unit.guessed) return;  // no unit makes sense of it
+    if (candidates.empty()) {
+        throw InputError(
+            fmt::format("{}: {:.3g} x {:.3g} m for a floor plan, and the file says no "
+                        "unit: set site.unit_m to the metres of one",
+                        file.string(), box.size().x(), box.size().y()));
+    }
+    throw InputError(fmt::format(
+        "{}: {:.0f} x {:.0f} m for a floor plan{}: are these {}? set site.unit_m = {}, or the unit "
+        "that it is drawn in, in metres",
+        file.string(), box.size().x(), box.size().y(),
+        unit.said.empty() ? "" : ", since the file says " + unit.said, candidates, choices));
 }
 
 }  // namespace vfplan

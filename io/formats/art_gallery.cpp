@@ -129,6 +129,7 @@ Drawing read_art_gallery(const std::string& text, const std::filesystem::path& f
     Drawing out;
     RoleTally tally;
     out.set.how.format = "AGPLIB";
+    out.unit.guessed = true;
     if (const auto role = tally.settle(options, "gallery", Role::outline)) {
         Feature f;
         f.number = 1;

@@ -1,5 +1,7 @@
-// The formats that people have: OSM, GeoPackage, DXF, Shapefile, gzip'd GeoJSON.
+// The formats that people have, through the program.
 #include <bit>
+#include <cstdio>
+#include <map>
 
 #include "program.h"
 
@@ -74,6 +76,69 @@ TEST(Formats, DxfInInches) {
                            {"field.cell_m=0.1", "site.unit_m=0.0254"}, "office.toml");
     EXPECT_NEAR(s["site"]["width_m"].get<double>(), 20, 2);
     EXPECT_NEAR(s["site"]["height_m"].get<double>(), 14, 2);
+}
+
+// One plan drawn in four units gives one plan of stations, and a question when it does not say
+// which.
+TEST(Formats, DxfInEveryUnit) {
+    const auto drawing = [](double per_m, int insunits) {
+        std::string out = "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n";
+        if (insunits >= 0) out += "9\n$INSUNITS\n70\n" + std::to_string(insunits) + "\n";
+        out += "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n";
+        const std::vector<std::vector<double>> walls = {
+            {0, 0, 8, 0}, {8, 0, 8, 6}, {8, 6, 0, 6}, {0, 6, 0, 0}, {3, 0, 3, 4}};
+        for (const auto& w : walls) {
+            out += "0\nLINE\n8\nWALL\n";
+            const int codes[] = {10, 20, 11, 21};
+            for (std::size_t i = 0; i < 4; ++i) {
+                char value[64];
+                std::snprintf(value, sizeof value, "%.12f", w[i] * per_m);
+                out += std::to_string(codes[i]) + "\n" + value + "\n";
+            }
+        }
+        return out + "0\nENDSEC\n0\nEOF\n";
+    };
+    const Scratch scratch;
+    std::string metres;
+    const std::map<int, double> per_m = {{6, 1}, {5, 100}, {4, 1000}, {1, 1 / 0.0254}};
+    for (const auto& [insunits, scale] : per_m) {
+        const std::string name = std::to_string(insunits) + "_units";
+        planned(scratch, scratch.write(name + ".dxf", drawing(scale, insunits)),
+                {"field.cell_m=0.1"}, "office.toml", name.c_str());
+        const std::string stations = read_bytes(scratch / (name + "/stations.csv"));
+        if (metres.empty()) metres = stations;
+        EXPECT_EQ(stations, metres) << insunits;
+        const Output o =
+            vfplan_process({"run", scratch.write(name + "s.dxf", drawing(scale, -1)), "--dry-run"});
+        if (insunits == 6) {
+            EXPECT_EQ(o.code, 0) << o.err;
+        } else {
+            EXPECT_EQ(o.code, 3);
+            EXPECT_NE(o.err.find("set site.unit_m"), std::string::npos) << o.err;
+        }
+    }
+}
+
+// Everything in the data sets' raw folders, and the art galleries, is understood.
+TEST(Formats, EveryRawFileIsInspected) {
+    VFPLAN_NEED_DATA("town_delft/raw");
+    const Scratch scratch;
+    int files = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(data_dir())) {
+        const Path& file = entry.path();
+        if (!entry.is_regular_file()) continue;
+        if (file.parent_path().filename() != "raw" && file.extension() != ".pol") continue;
+        std::vector<std::string> sets;
+        if (file.filename() == "floorplan.dxf") sets = {"site.unit_m=0.0254"};
+        if (file.filename() == "bubenec.gpkg") sets = {"site.layer=buildings", "site.crs=utm"};
+        if (file.extension() == ".pol") sets = {"site.unit_m=20"};
+        const Output o =
+            vfplan_process(with_sets({"inspect", file, "--out", scratch / "site.png"}, sets));
+        EXPECT_EQ(o.code, 0) << file << ": " << o.err;
+        EXPECT_NE(o.out.find("m of faces to scan"), std::string::npos) << file << ": " << o.out;
+        ++files;
+    }
+    EXPECT_EQ(files, 35 + 49);
 }
 
 TEST(Formats, GeoJsonGzip) {

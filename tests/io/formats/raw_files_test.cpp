@@ -84,8 +84,8 @@ TEST(RawFiles, OfficesAndSchools) {
         equal += d.wrong_m == 0;
         ++files;
     }
-    std::printf("offices and schools: %.2f m of %.2f m apart, %d files not at all\n", wrong_m, all_m,
-                equal);
+    std::printf("offices and schools: %.2f m of %.2f m apart, %d files not at all\n", wrong_m,
+                all_m, equal);
     EXPECT_EQ(files, 25);
     EXPECT_GE(equal, 12);
     EXPECT_LT(wrong_m, 0.0015 * all_m);

@@ -163,7 +163,13 @@ TEST(Reading, ADrawingSaysItsUnit) {
 TEST(Reading, AUnitThatCannotBeIsAsked) {
     const TemporaryFile silent("room.dxf", dxf(1000, -1));
     expect_words(message_of<InputError>([&] { read_features(silent.path(), indoor()); }),
-                 {"8e+03 x 6e+03 m", "millimetres", "site.unit_m = 0.001"});
+                 {"8000 x 6000 m", "millimetres (8 x 6 m)", "centimetres (80 x 60 m)",
+                  "site.unit_m = 0.001"});
+    for (const double per_m : {100.0, 1 / 0.0254}) {
+        const TemporaryFile other("other.dxf", dxf(per_m, -1));
+        expect_words(message_of<InputError>([&] { read_features(other.path(), indoor()); }),
+                     {"centimetres", "inches", "0.0254"});
+    }
     const TemporaryFile wrong("wrong.dxf", dxf(1 / 0.0254, 4));
     expect_words(message_of<InputError>([&] { read_features(wrong.path(), indoor()); }),
                  {"$INSUNITS = 4", "inches", "site.unit_m = 0.0254"});
