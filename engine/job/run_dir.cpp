@@ -6,6 +6,7 @@
 #include "engine/config/parameters.h"
 #include "io/exports/outputs.h"
 #include "io/files.h"
+#include "io/formats/read_features.h"
 #include "io/sha256.h"
 #include "io/tables/field_file.h"
 #include "kernels/error.h"
@@ -23,6 +24,9 @@ std::string input_hash(const Config& config) {
     std::string hash;
     for (const std::filesystem::path& path : existing_paths(config)) {
         if (std::filesystem::is_regular_file(path)) hash += sha256_of_file(path);
+    }
+    for (const std::filesystem::path& path : companions(config.site.input)) {
+        hash += sha256_of_file(path);
     }
     return hash;
 }

@@ -124,6 +124,24 @@ void check_coordinates(const FeatureSet& set, const std::filesystem::path& file)
 
 }  // namespace
 
+std::vector<std::filesystem::path> companions(const std::filesystem::path& file) {
+    std::vector<std::filesystem::path> out;
+    const auto add = [&](const std::filesystem::path& path) {
+        std::error_code ignored;
+        if (std::filesystem::is_regular_file(path, ignored)) out.push_back(path);
+    };
+    const std::string ending = file.extension().string();
+    if (ending == ".shp" || ending == ".SHP") {
+        for (const char* e : {".shx", ".dbf", ".prj", ".cpg", ".SHX", ".DBF", ".PRJ", ".CPG"}) {
+            add(std::filesystem::path(file).replace_extension(e));
+        }
+    } else if (std::filesystem::is_regular_file(file)) {
+        const PackedFile packed = look_into(file);
+        if (looks_like_ros_map(packed.head, file)) add(ros_image(packed.head, file));
+    }
+    return out;
+}
+
 FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& options) {
     const PackedFile packed = look_into(file);
     std::optional<Drawing> ours = read_ours(packed, file, options);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "io/features/feature.h"
 #include "io/features/read_options.h"
@@ -15,5 +16,9 @@ namespace vfplan {
 // coordinates that are no numbers or no places; UsageError for options that the format has no
 // meaning for.
 FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& options);
+
+// The other files that a site's file is nothing without, as far as they are there: the image of a
+// ROS map; the index, attributes, CRS and encoding of a Shapefile. Throws as read_features() does.
+std::vector<std::filesystem::path> companions(const std::filesystem::path& file);
 
 }  // namespace vfplan

@@ -150,6 +150,10 @@ bool looks_like_ros_map(const std::string& head, const std::filesystem::path& fi
     return has_key("image:") && (yaml || has_key("resolution:"));
 }
 
+std::filesystem::path ros_image(const std::string& text, const std::filesystem::path& file) {
+    return info_of(text, file).image;
+}
+
 Drawing read_ros_map(const std::string& text, const std::filesystem::path& file,
                      const ReadOptions& options) {
     const MapInfo info = info_of(text, file);

@@ -13,6 +13,9 @@ namespace vfplan {
 // by its name.
 bool looks_like_ros_map(const std::string& head, const std::filesystem::path& file);
 
+// The image that such a file names. Throws as read_ros_map() does.
+std::filesystem::path ros_image(const std::string& text, const std::filesystem::path& file);
+
 // Occupied pixels become walls, free ones rooms, both traced by potrace to polygons that stay
 // within half a pixel of the pixels' border; specks of two pixels are left out, with a warning.
 // Unknown pixels are neither: stations do not stand there, and nobody scans their border. Throws

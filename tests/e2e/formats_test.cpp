@@ -119,6 +119,35 @@ TEST(Formats, DxfInEveryUnit) {
     }
 }
 
+// Tables of a robot's map are those of its image, too.
+TEST(Formats, AnotherImageIsAnotherJob) {
+    const Scratch scratch;
+    const auto image = [](int wall) {
+        std::string out = "P5\n100 80\n255\n";
+        for (int y = 0; y < 80; ++y) {
+            for (int x = 0; x < 100; ++x) {
+                const bool edge = x < 4 || y < 4 || x >= 96 || y >= 76;
+                out += edge || (x >= wall && x < wall + 4 && y < 50) ? '\x00' : '\xFE';
+            }
+        }
+        return out;
+    };
+    scratch.write("map.pgm", image(40));
+    const std::string yaml =
+        scratch.write("map.yaml", "image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n");
+    const Words run = {"run", yaml, "--out", scratch / "run", "--set", "field.cell_m=0.1"};
+    vfplan_expect(0, run);
+    const std::string first = read_bytes(scratch / "run/stations.csv");
+    vfplan_expect(0, run);
+    scratch.write("map.pgm", image(60));
+    const Output other = vfplan_process(run);
+    EXPECT_NE(other.code, 0) << "old tables were taken for the new image: " << other.out;
+    Words fresh = run;
+    fresh.push_back("--fresh");
+    vfplan_expect(0, fresh);
+    EXPECT_NE(read_bytes(scratch / "run/stations.csv"), first);
+}
+
 // Everything in the data sets' raw folders, and the art galleries, is understood.
 TEST(Formats, EveryRawFileIsInspected) {
     VFPLAN_NEED_DATA("town_delft/raw");
