@@ -82,7 +82,8 @@ double tables_memory_mb(const Layout& layout, double range_m, const Estimate& e,
 
 // What tiles cost beside their cells, in files; small tiles on a large grid are many.
 constexpr double field_shard_mb = 0.010;
-constexpr double passing_shards_mb = 0.008;  // of all phases
+constexpr double open_shard_mb = 6.4;        // in memory
+constexpr double passing_shards_mb = 0.006;  // of all phases
 
 double shards_s(const Layout& layout, double range_m) {
     constexpr double write_s = 0.03;  // through all phases
@@ -163,8 +164,10 @@ Estimate estimate(const Config& config, const JobOptions& options, Progress& pro
     // Libraries; and the picture in memory, a few times over.
     const double base_mb = 65 + outputs_take(config, e, &Output::memory_bytes) / 1e6;
     const double range_m = config.scanner.range_max_m;
+    // The field is read in rows, for which the shards of all tiles beside each other are open.
+    const double rows_mb = open_shard_mb * layout.tile_columns();
     e.memory_mb = std::max({site_mb, 65 + tables_memory_mb(layout, range_m, e, walls, threads),
-                            base_mb + plan_memory_mb(e, walls)});
+                            base_mb + plan_memory_mb(e, walls), base_mb + rows_mb});
     const auto tiles = static_cast<double>(layout.tiles());
     const double tables_mb = (s.field_bytes + s.coverage_bytes) / 1e6 + field_shard_mb * tiles;
     e.disk_mb = tables_mb + files_mb(config, e, walls);

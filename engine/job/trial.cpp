@@ -31,7 +31,7 @@ double bytes_below(const std::filesystem::path& folder, const std::string& prefi
 constexpr double phase_s = 0.003;  // of a phase that has next to nothing to do
 constexpr double field_bytes = 10000;
 constexpr double coverage_bytes = 6000;
-constexpr double site_bytes = 70000;
+constexpr double site_bytes = 76000;
 constexpr double passing_bytes = 2000;
 
 }  // namespace
