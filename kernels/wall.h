@@ -65,6 +65,7 @@ struct CleaningCounts {
     std::int64_t split = 0;          // extra edges made where edges cross or touch
     std::int64_t merged = 0;         // edges joined to a collinear neighbour
     std::int64_t inside_solids = 0;  // edges dropped because both sides are solid
+    std::int64_t opened = 0;         // edges dropped because a door or window opens them
     std::int64_t slivers = 0;        // edges dropped that areas thinner than the snap leave
     std::int64_t walls = 0;          // walls in the end
 
@@ -80,6 +81,7 @@ struct CleaningCounts {
         split += o.split;
         merged += o.merged;
         inside_solids += o.inside_solids;
+        opened += o.opened;
         slivers += o.slivers;
         walls += o.walls;
         return *this;

@@ -7,8 +7,8 @@
 
 #include "engine/runtime/parallel.h"
 #include "io/exports/site_png.h"
+#include "io/formats/read_features.h"
 #include "io/site/site_reader.h"
-#include "io/site/vector_reader.h"
 #include "io/tables/crs.h"
 #include "kernels/error.h"
 #include "kernels/index.h"
@@ -69,6 +69,22 @@ std::string dropped_text(const Site& site) {
     return out + (site.dropped.size() > most ? "  ...\n" : "");
 }
 
+// Where the ground jumps as openings that count as part of the building may be wider.
+std::string openings_text(const std::vector<OpeningStep>& steps, double max_opening_m) {
+    if (steps.empty()) return "";
+    std::string out =
+        fmt::format("openings   what is inside by site.max_opening_m ({} m now):\n", max_opening_m);
+    bool now = false;
+    for (const OpeningStep& s : steps) {
+        if (!now && s.opening_m > max_opening_m) {
+            now = true;
+            out += "  -- now --\n";
+        }
+        out += fmt::format("  {:>6.2f} m  {:.2f} m2\n", s.opening_m, s.inside_m2);
+    }
+    return out;
+}
+
 }  // namespace
 
 Config config_for_site(const std::filesystem::path& file, const std::vector<std::string>& sets) {
@@ -112,6 +128,8 @@ Inspection inspect(const Config& config, int thread_count) {
     options.for_each = [&](std::int64_t n, const SiteOptions::Body& body) {
         threads.for_each(n, 16, body);
     };
+    constexpr double widest_m = 6;
+    options.opening_steps_up_to_m = std::max(widest_m, 2 * options.max_opening_m);
     const SiteResult read = read_site(config.site.input, options);
     const Site& site = read.site;
     const CleaningCounts& c = site.counts;
@@ -126,16 +144,19 @@ Inspection inspect(const Config& config, int thread_count) {
         "crs        {}\n"
         "extent     {:.2f} x {:.2f} m from ({:.2f}, {:.2f})\n"
         "edges      {} read, {} too short, {} repeated, {} split, {} joined, {} inside solids, {} "
-        "slivers\n"
+        "in "
+        "openings, {} slivers\n"
         "walls      {}\n{}"
         "ground     {} {}, {:.2f} m2 {}\n",
         config.site.input.string(), read.how.format, name_of(config.preset), c.features,
         read_as_text(read.how), read.how.unit, crs, size.x(), size.y(), at.x(), at.y(), c.edges_in,
-        c.zero_length, c.duplicates, c.split, c.merged, c.inside_solids, c.slivers,
+        c.zero_length, c.duplicates, c.split, c.merged, c.inside_solids, c.opened, c.slivers,
         site.walls.size(), walls_text(site), site.buildings,
         options.kind == SiteKind::outdoor ? "solid polygons" : "rooms", site.area_m2,
         options.kind == SiteKind::outdoor ? "built over" : "free");
-    if (options.kind == SiteKind::indoor) text += dropped_text(site);
+    if (options.kind == SiteKind::indoor) {
+        text += dropped_text(site) + openings_text(read.opening_steps, options.max_opening_m);
+    }
     for (const std::string& w : read.warnings) text += "warning    " + w + "\n";
     return {text, site_png(site)};
 }

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "io/site/planar.h"
 #include "io/site/site_reader.h"
@@ -10,101 +12,194 @@
 namespace vfplan {
 namespace {
 
-struct Drawing {
-    std::vector<Polygon> solids;
-    std::vector<Line> lines;
-
-    void solid(const FeaturesByRole& in, Role role) {
-        solids.insert(solids.end(), in.polys(role).begin(), in.polys(role).end());
-        line(in, role);
+// What is drawn, by the job's choices about doors and windows.
+planar::Parts parts_of(const FeaturesByRole& in, const SiteOptions& options) {
+    planar::Parts out;
+    const auto add = [&](std::vector<Polygon>& to, Role role) {
+        to.insert(to.end(), in.polys(role).begin(), in.polys(role).end());
+    };
+    const auto lines = [&](Role role) {
+        out.lines.insert(out.lines.end(), in.line(role).begin(), in.line(role).end());
+    };
+    for (const Role r : {Role::building, Role::wall}) {
+        add(out.solids, r);
+        lines(r);
     }
-    void line(const FeaturesByRole& in, Role role) {
-        lines.insert(lines.end(), in.line(role).begin(), in.line(role).end());
-    }
-    // Polygons whose rings are walls around free ground.
-    void around(const FeaturesByRole& in, Role role) {
-        const auto ring = [&](const Ring& points) {
-            Line closed = points;
-            closed.push_back(closed.front());
-            lines.push_back(std::move(closed));
-        };
-        for (const Polygon& p : in.polys(role)) {
-            ring(p.outer);
-            for (const Ring& hole : p.holes) ring(hole);
-        }
-        line(in, role);
-    }
-};
-
-// What of a drawing is a wall, by the job's choices.
-Drawing walls_of(const FeaturesByRole& in, const SiteOptions& options) {
-    Drawing out;
-    const bool outdoors = options.kind == SiteKind::outdoor;
-    out.solid(in, Role::building);
-    out.solid(in, Role::wall);
-    out.solid(in, Role::obstacle);
-    if (outdoors) {
-        for (const Role r : {Role::window, Role::door, Role::outline}) {
-            out.solids.insert(out.solids.end(), in.polys(r).begin(), in.polys(r).end());
-        }
+    add(out.obstacles, Role::obstacle);
+    lines(Role::obstacle);
+    if (options.kind == SiteKind::outdoor) {
+        for (const Role r : {Role::window, Role::door, Role::outline}) add(out.solids, r);
         return out;
     }
-    if (options.windows != WindowMode::opening) out.solid(in, Role::window);
-    if (options.doors == DoorMode::closed) out.solid(in, Role::door);
-    out.around(in, Role::outline);
+    if (options.windows == WindowMode::opening) {
+        add(out.openings, Role::window);
+    } else {
+        add(out.solids, Role::window);
+        lines(Role::window);
+    }
+    if (options.doors == DoorMode::open) {
+        add(out.openings, Role::door);
+    } else {
+        add(out.solids, Role::door);
+        lines(Role::door);
+    }
+    add(out.outlines, Role::outline);
+    lines(Role::outline);
     return out;
 }
 
+class Comparison {
+public:
+    Comparison(const Config& config, const CoverageTables& t, const FieldFile* field)
+        : t_(t), field_(field), options_(ground_options(config).site) {
+        const planar::Parts parts = parts_of(read_drawing(config.site.input, options_), options_);
+        std::size_t vertices = 0;
+        for (const auto* polygons :
+             {&parts.solids, &parts.openings, &parts.obstacles, &parts.outlines}) {
+            for (const Polygon& p : *polygons) vertices += p.outer.size();
+        }
+        for (const Line& line : parts.lines) vertices += line.size();
+        // Both round to the snap, and may bend or close a slit otherwise: a tenth of what that
+        // could make.
+        slack_m_ = 0.02 + 0.2 * options_.snap_m * static_cast<double>(vertices);
+        drawn_ = std::make_unique<planar::Drawn>(parts, options_.snap_m);
+    }
+
+    Reread compare() {
+        lengths();
+        area();
+        if (field_ != nullptr) cells();
+        faces();
+        return std::move(out_);
+    }
+
+private:
+    void add(bool good, const std::string& text) {
+        out_.good = out_.good && good;
+        out_.text.push_back((good ? "yes  " : "NO   ") + text);
+    }
+
+    void lengths() {
+        double all_m = 0;
+        std::array<double, 3> by_sides{};
+        for (const Wall& w : t_.walls) {
+            all_m += w.length_m();
+            by_sides[static_cast<std::size_t>(w.free_side[left] + w.free_side[right])] +=
+                w.length_m();
+        }
+        const double border_m = drawn_->border_m();
+        const double lines_m = drawn_->lines_m();
+        const auto near = [&](double a, double b) { return std::abs(a - b) <= slack_m_; };
+        add(near(all_m, border_m + lines_m),
+            fmt::format("site read again with GEOS: {:.2f} m of walls, {:.2f} m in the tables "
+                        "({:.2f} m apart allowed)",
+                        border_m + lines_m, all_m, slack_m_));
+        if (options_.kind != SiteKind::outdoor) return;
+        add(near(by_sides[1], border_m) && near(by_sides[2], lines_m) && near(by_sides[0], 0),
+            fmt::format(
+                "of these {:.2f} m with one free side, {:.2f} m with two; {:.2f} and {:.2f} "
+                "m in the tables, {:.2f} m with none",
+                border_m, lines_m, by_sides[1], by_sides[2], by_sides[0]));
+    }
+
+    void area() {
+        const auto site = nlohmann::json::parse(t_.summary).value("site", nlohmann::json());
+        const bool outdoors = options_.kind == SiteKind::outdoor;
+        if (!site.contains("area_m2") || (!outdoors && !drawn_->has_outlines())) return;
+        double said_m2 = site["area_m2"].get<double>();
+        if (!outdoors) said_m2 += site.value("ground_dropped_m2", 0.0);
+        const double drawn_m2 = outdoors ? drawn_->solid_m2() : drawn_->outlined_m2();
+        const double slack_m2 = 0.01 + options_.snap_m * (drawn_->border_m() + drawn_->lines_m());
+        add(std::abs(said_m2 - drawn_m2) <= slack_m2,
+            fmt::format("{:.2f} m2 are {}, {:.2f} m2 in the tables ({:.2f} m2 apart allowed)",
+                        drawn_m2, outdoors ? "built over" : "within outlines and not solid",
+                        said_m2, slack_m2));
+    }
+
+    // Whether a place is solid; nothing where that depends on a few snaps.
+    std::optional<bool> solid(const Vec2d& p) const {
+        const double d = 5 * options_.snap_m;
+        const bool here = drawn_->solid(p);
+        for (const Vec2d& by : {Vec2d(d, d), Vec2d(-d, d), Vec2d(d, -d), Vec2d(-d, -d)}) {
+            if (drawn_->solid(p + by) != here) return {};
+        }
+        return here;
+    }
+
+    void cells() {
+        constexpr std::int64_t sample = 4000;
+        const std::int64_t step = std::max<std::int64_t>(1, field_->grid().size() / sample);
+        std::int64_t number = 0;
+        std::int64_t looked_at = 0;
+        std::int64_t wrong = 0;
+        std::string first;
+        field_->each_band([&](const Window& w, const Raster<float>& vf) {
+            for (std::size_t i = 0; i < vf.size(); ++i) {
+                if (number++ % step != step / 2) continue;
+                const std::int64_t cell =
+                    field_->grid().id(0, w.y_begin) + static_cast<std::int64_t>(i);
+                const Vec2d at = t_.origin + field_->grid().centre(cell);
+                const std::optional<bool> in = solid(at);
+                if (!in) continue;
+                ++looked_at;
+                const bool free = !std::isnan(vf[i]);
+                bool good = !free || !*in;
+                if (options_.kind == SiteKind::outdoor) good = free != *in;
+                if (drawn_->has_outlines()) good = good && (!free || drawn_->outlined(at));
+                if (good) continue;
+                ++wrong;
+                if (first.empty()) {
+                    first = fmt::format(", the first at ({:.2f}, {:.2f})", at.x(), at.y());
+                }
+            }
+        });
+        add(wrong == 0, fmt::format("{} cells looked at: {} are {}{}", looked_at, wrong,
+                                    options_.kind == SiteKind::outdoor
+                                        ? "free in something solid, or taken beside it"
+                                        : "free in something solid or outside",
+                                    first));
+    }
+
+    void faces() {
+        constexpr std::size_t sample = 2000;
+        const std::size_t step = std::max<std::size_t>(1, t_.walls.size() / sample);
+        std::size_t looked_at = 0;
+        std::size_t into_solids = 0;
+        for (std::size_t i = step / 2; i < t_.walls.size(); i += step) {
+            const Wall& w = t_.walls[i];
+            const Vec2d e = (w.b - w.a) / w.length_m();
+            for (const Side side : {left, right}) {
+                if (!w.free_side[side]) continue;
+                const Vec2d normal = (side == left ? 1 : -1) * Vec2d(-e.y(), e.x());
+                const Vec2d middle = t_.origin + (w.a + w.b) / 2;
+                ++looked_at;
+                const auto is_solid = [&](double snaps) {
+                    return drawn_->solid(middle + snaps * options_.snap_m * normal);
+                };
+                if (is_solid(0.3) && is_solid(1.5) && is_solid(5)) {
+                    ++into_solids;  // not across a slit
+                }
+            }
+        }
+        // Two solids that overlap by less than a snap may leave a slit of one.
+        const std::size_t allowed = looked_at / 1000;
+        add(into_solids <= allowed,
+            fmt::format("{} faces looked at: {} look into something solid ({} allowed)", looked_at,
+                        into_solids, allowed));
+    }
+
+    const CoverageTables& t_;
+    const FieldFile* field_;
+    SiteOptions options_;
+    std::unique_ptr<planar::Drawn> drawn_;
+    double slack_m_ = 0;
+    Reread out_;
+};
+
 }  // namespace
 
-Reread reread(const Config& config, const CoverageTables& t) {
-    const SiteOptions options = ground_options(config).site;
-    Drawing drawing = walls_of(read_drawing(config.site.input, options), options);
-    std::size_t vertices = 0;
-    for (const Polygon& p : drawing.solids) vertices += p.outer.size();
-    for (const Line& line : drawing.lines) vertices += line.size();
-    const planar::Drawn drawn(drawing.solids, drawing.lines, config.site.snap_m);
-    Reread out;
-    const auto add = [&](bool good, std::string text) {
-        out.good = out.good && good;
-        out.text.push_back((good ? "yes  " : "NO   ") + text);
-    };
-
-    double length_m = 0;
-    for (const Wall& w : t.walls) length_m += w.length_m();
-    const double want_m = drawn.wall_length_m();
-    // Both round to the snap, and may bend or close a slit otherwise: a tenth of what that could
-    // make.
-    const double slack_m = 0.02 + 0.2 * config.site.snap_m * static_cast<double>(vertices);
-    add(std::abs(length_m - want_m) <= slack_m,
-        fmt::format("site read again with GEOS: {:.2f} m of walls, {:.2f} m in the tables "
-                    "({:.2f} m apart allowed)",
-                    want_m, length_m, slack_m));
-
-    constexpr std::size_t sample = 2000;
-    const std::size_t step = std::max<std::size_t>(1, t.walls.size() / sample);
-    std::size_t looked_at = 0;
-    std::size_t into_solids = 0;
-    for (std::size_t i = step / 2; i < t.walls.size(); i += step) {
-        const Wall& w = t.walls[i];
-        const Vec2d e = (w.b - w.a) / w.length_m();
-        for (const Side side : {left, right}) {
-            if (!w.free_side[side]) continue;
-            const Vec2d normal = (side == left ? 1 : -1) * Vec2d(-e.y(), e.x());
-            const Vec2d middle = t.origin + (w.a + w.b) / 2;
-            ++looked_at;
-            const auto solid = [&](double snaps) {
-                return drawn.solid(middle + snaps * config.site.snap_m * normal);
-            };
-            if (solid(0.3) && solid(1.5) && solid(5)) ++into_solids;  // not across a slit
-        }
-    }
-    // Two solids that overlap by less than a snap may leave a slit of one.
-    const std::size_t allowed = looked_at / 1000;
-    add(into_solids <= allowed,
-        fmt::format("{} faces looked at: {} look into something solid ({} allowed)", looked_at,
-                    into_solids, allowed));
-    return out;
+Reread reread(const Config& config, const CoverageTables& t, const FieldFile* field) {
+    return Comparison(config, t, field).compare();
 }
 
 }  // namespace vfplan

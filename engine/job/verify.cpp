@@ -315,7 +315,8 @@ bool fits(const CoverageTables& t, const Plan& plan) {
 }
 
 // The walls against the site's own file, when it is still what it was.
-void check_site(const Config& config, const CoverageTables& t, Checks& checks) {
+void check_site(const Config& config, const CoverageTables& t, const FieldFile& field,
+                Checks& checks) {
     std::error_code ignored;
     if (!std::filesystem::exists(config.site.input, ignored)) {
         checks.note(fmt::format("{} is not there: walls were not compared with it",
@@ -327,7 +328,7 @@ void check_site(const Config& config, const CoverageTables& t, Checks& checks) {
                                 config.site.input.string()));
         return;
     }
-    const Reread found = reread(config, t);
+    const Reread found = reread(config, t, &field);
     for (const std::string& line : found.text) checks.add(line.starts_with("yes"), line.substr(5));
 }
 
@@ -367,7 +368,7 @@ VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Pro
     check_field(scenes, threads, field, table.plan, config.visibility.kernel, checks);
     check_rays(found.ray_difference, checks);
     check_bound(t, entries, table.plan, checks);
-    check_site(config, t, checks);
+    check_site(config, t, field, checks);
     progress.finish();
     return checks.result();
 }

@@ -81,6 +81,7 @@ Json site_summary(const Site& site) {
               {"split", site.counts.split},
               {"merged", site.counts.merged},
               {"inside_solids", site.counts.inside_solids},
+              {"opened", site.counts.opened},
               {"slivers", site.counts.slivers}}}};
 }
 

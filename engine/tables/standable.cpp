@@ -4,8 +4,8 @@
 #include <atomic>
 #include <cmath>
 
+#include "io/formats/read_features.h"
 #include "io/site/site_reader.h"
-#include "io/site/vector_reader.h"
 #include "kernels/free_cells.h"
 #include "kernels/index.h"
 

@@ -4,8 +4,8 @@
 
 #include <iterator>
 
+#include "io/features/crs.h"
 #include "io/files.h"
-#include "io/site/crs.h"
 #include "io/tables/coverage_file.h"
 #include "kernels/index.h"
 

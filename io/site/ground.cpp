@@ -3,17 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/site/passages.h"
 #include "io/site/planar.h"
 #include "kernels/index.h"
 
 namespace vfplan {
 namespace {
 
-class Finder {
+class Finder : Passages {
 public:
     Finder(const Subdivision& s, const std::vector<bool>& wall, const std::vector<bool>& shut,
            const SiteOptions& options)
-        : s_(s), wall_(wall), shut_(shut), options_(options), n_(s.triangles.triangles.size()) {}
+        : Passages(s, wall, shut, options.snap_m), options_(options) {}
 
     Ground find() {
         flow_in_from_outside();
@@ -25,30 +26,6 @@ public:
     }
 
 private:
-    // The neighbour over side i of a triangle when no wall is in between, else -1.
-    std::int32_t over(std::int32_t t, std::size_t i) const {
-        const Triangle& triangle = s_.triangles.triangles[idx(t)];
-        return triangle.wall[i] >= 0 && wall_[idx(triangle.wall[i])] ? -1 : triangle.neighbour[i];
-    }
-    bool is_shut(std::int32_t t, std::size_t i) const {
-        const std::int32_t edge = s_.triangles.triangles[idx(t)].wall[i];
-        return edge >= 0 && shut_[idx(edge)];
-    }
-    double width_m(std::int32_t t, std::size_t i) const {
-        const Triangle& triangle = s_.triangles.triangles[idx(t)];
-        return options_.snap_m *
-               (corner(triangle, (i + 1) % 3) - corner(triangle, (i + 2) % 3)).norm();
-    }
-    const Vec2d& corner(const Triangle& triangle, std::size_t i) const {
-        return s_.triangles.vertices[idx(triangle.vertex[i])];
-    }
-    double triangle_m2(std::int32_t t) const {
-        const Triangle& tr = s_.triangles.triangles[idx(t)];
-        return orient(corner(tr, 0), corner(tr, 1), corner(tr, 2)) / 2 * options_.snap_m *
-               options_.snap_m;
-    }
-    bool taken(std::int32_t t) const { return (s_.kinds[idx(t)] & taken_areas) != 0; }
-
     // Marks all that can be come to from the triangles in `front` over sides that `pass` lets
     // through.
     template <class Pass>
@@ -143,15 +120,10 @@ private:
 
     void flow_in_from_outside() {
         outside_.assign(n_, false);
-        constexpr Kinds named = bit(outline_area) | bit(room_area) | bit(doorway_area);
-        std::vector<std::int32_t> front;
-        for (std::int32_t t = 0; idx(t) < n_; ++t) {
-            const auto& next = s_.triangles.triangles[idx(t)].neighbour;
-            if (std::find(next.begin(), next.end(), -1) != next.end()) front.push_back(t);
-        }
+        std::vector<std::int32_t> front = at_the_rim();
         flood(std::move(front), outside_, [&](std::int32_t t, std::size_t i, std::int32_t to) {
-            return !is_shut(t, i) && width_m(t, i) > options_.max_opening_m &&
-                   (s_.kinds[idx(to)] & named) == 0 && !taken(to);
+            return !is_shut(t, i) && width_m(t, i) > options_.max_opening_m && !named(to) &&
+                   !taken(to);
         });
     }
 
@@ -159,7 +131,8 @@ private:
         Kinds all = 0;
         for (const Kinds k : s_.kinds) all = static_cast<Kinds>(all | k);
         std::vector<bool> inside(n_, false);
-        if ((all & bit(outline_area)) != 0) {
+        outlined_ = (all & bit(outline_area)) != 0;
+        if (outlined_) {
             for (std::int32_t t = 0; idx(t) < n_; ++t) {
                 inside[idx(t)] = (s_.kinds[idx(t)] & bit(outline_area)) != 0 && !taken(t);
             }
@@ -237,6 +210,7 @@ private:
     }
 
     // Faces count where they are dropped with no ground: in what is neither reached nor outside.
+    // Beyond an outline there is no ground that could be.
     void list_dropped() {
         std::vector<bool> listed(n_, false);
         for (auto& [part, dropped] : dropped_) {
@@ -244,8 +218,8 @@ private:
         }
         std::vector<bool> voids(n_, false);
         for (std::int32_t t = 0; idx(t) < n_; ++t) {
-            voids[idx(t)] =
-                !listed[idx(t)] && !taken(t) && !outside_[idx(t)] && !out_.reached[idx(t)];
+            voids[idx(t)] = !listed[idx(t)] && !taken(t) && !outside_[idx(t)] &&
+                            !out_.reached[idx(t)] && (inside_[idx(t)] || !outlined_);
         }
         out_.left_out.assign(n_, false);
         for (std::int32_t t = 0; idx(t) < n_; ++t) {
@@ -271,13 +245,10 @@ private:
         });
     }
 
-    const Subdivision& s_;
-    const std::vector<bool>& wall_;
-    const std::vector<bool>& shut_;
     const SiteOptions& options_;
-    std::size_t n_;
     std::vector<bool> outside_;
     std::vector<bool> inside_;
+    bool outlined_ = false;  // outlines say what is inside
     std::vector<std::pair<Part, Dropped>> dropped_;
     Ground out_;
 };

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "io/site/feature.h"
+#include "io/features/feature.h"
 #include "kernels/faces.h"
 #include "kernels/noding.h"
 
@@ -18,9 +18,15 @@ inline constexpr AreaKind obstacle_area = 1;  // in the way too
 inline constexpr AreaKind outline_area = 2;   // free ground, and its border is a wall
 inline constexpr AreaKind room_area = 3;
 inline constexpr AreaKind doorway_area = 4;
+inline constexpr AreaKind opened_area = 5;  // an open door or window: no wall stands in it
+inline constexpr AreaKind window_area = 6;  // the part of a wall that a window takes up
 
 constexpr Kinds bit(AreaKind kind) { return static_cast<Kinds>(1U << static_cast<unsigned>(kind)); }
-inline constexpr Kinds taken_areas = bit(solid_area) | bit(obstacle_area);
+// Whether nobody can be in an area: something solid is, and no opening leads through it.
+constexpr bool is_taken(Kinds kinds) {
+    const bool solid = (kinds & (bit(solid_area) | bit(window_area))) != 0;
+    return (kinds & bit(obstacle_area)) != 0 || (solid && (kinds & bit(opened_area)) == 0);
+}
 
 // What a polygon or a line is.
 struct Source {

@@ -79,6 +79,12 @@ Geometry lines_of(const std::vector<Line>& lines) {
     return collection(GEOS_MULTILINESTRING, std::move(parts));
 }
 
+std::vector<const Ring*> rings_of(const Polygon& p) {
+    std::vector<const Ring*> out = {&p.outer};
+    for (const Ring& hole : p.holes) out.push_back(&hole);
+    return out;
+}
+
 // Calls f for every polygon (or line) in a geometry of any nesting.
 template <class F>
 void each_part(const GEOSGeometry* g, int wanted, F&& f) {
@@ -131,16 +137,12 @@ double inscribed_radius(const std::vector<Line>& border, double tolerance) {
     return largest;
 }
 
-struct Drawn::Impl {
-    Geometry solids;
-    const GEOSPreparedGeometry* prepared = nullptr;
-    double lines_m = 0;
-};
+namespace {
 
-Drawn::Drawn(const std::vector<Polygon>& solids, const std::vector<Line>& lines, double snap_m)
-    : impl_(std::make_unique<Impl>()) {
+// On a grid, or as exact as doubles are if that is 0.
+Geometry united(const std::vector<Polygon>& polygons, double snap_m) {
     std::vector<GEOSGeometry*> parts;
-    for (const Polygon& p : solids) {
+    for (const Polygon& p : polygons) {
         if (p.outer.size() < 3) continue;
         Geometry g = polygon(p);
         if (GEOSisValid_r(context(), g.get()) != 1) {
@@ -149,27 +151,93 @@ Drawn::Drawn(const std::vector<Polygon>& solids, const std::vector<Line>& lines,
         parts.push_back(g.release());
     }
     const Geometry all = collection(GEOS_GEOMETRYCOLLECTION, std::move(parts));
-    impl_->solids = checked(GEOSUnaryUnionPrec_r(context(), all.get(), snap_m), "a union");
-    impl_->prepared = GEOSPrepare_r(context(), impl_->solids.get());
-    if (lines.empty()) return;
-    const Geometry once =
-        checked(GEOSUnaryUnionPrec_r(context(), lines_of(lines).get(), snap_m), "a union");
-    const Geometry outside = checked(
-        GEOSDifferencePrec_r(context(), once.get(), impl_->solids.get(), snap_m), "a difference");
-    GEOSLength_r(context(), outside.get(), &impl_->lines_m);
+    return checked(snap_m > 0 ? GEOSUnaryUnionPrec_r(context(), all.get(), snap_m)
+                              : GEOSUnaryUnion_r(context(), all.get()),
+                   "a union");
 }
 
-Drawn::~Drawn() { GEOSPreparedGeom_destroy_r(context(), impl_->prepared); }
+Geometry without(const Geometry& a, const Geometry& b, double snap_m) {
+    return checked(snap_m > 0 ? GEOSDifferencePrec_r(context(), a.get(), b.get(), snap_m)
+                              : GEOSDifference_r(context(), a.get(), b.get()),
+                   "a difference");
+}
 
-double Drawn::wall_length_m() const {
+double area_m2(const Geometry& g) {
+    double area = 0;
+    GEOSArea_r(context(), g.get(), &area);
+    return area;
+}
+
+struct PreparedDestroyer {
+    void operator()(const GEOSPreparedGeometry* g) const {
+        GEOSPreparedGeom_destroy_r(context(), g);
+    }
+};
+using Prepared = std::unique_ptr<const GEOSPreparedGeometry, PreparedDestroyer>;
+
+bool contains(const Prepared& area, const Vec2d& p) {
+    const Geometry point(GEOSGeom_createPointFromXY_r(context(), p.x(), p.y()));
+    return GEOSPreparedContains_r(context(), area.get(), point.get()) == 1;
+}
+
+}  // namespace
+
+struct Drawn::Impl {
+    Geometry solids;
+    Geometry outlines;
+    Prepared in_solids;
+    Prepared in_outlines;
+    double snap_m = 0;
+    double lines_m = 0;
+};
+
+Drawn::Drawn(const Parts& parts, double snap_m) : impl_(std::make_unique<Impl>()) {
+    impl_->snap_m = snap_m;
+    // Openings end on the faces of walls: rounded one by one they would leave leaves of them.
+    const Geometry openings = united(parts.openings, 0);
+    if (parts.openings.empty()) {
+        impl_->solids = united(parts.solids, snap_m);
+    } else {
+        const Geometry opened = without(united(parts.solids, 0), openings, 0);
+        impl_->solids = checked(GEOSUnaryUnionPrec_r(context(), opened.get(), snap_m), "a union");
+    }
+    if (!parts.obstacles.empty()) {
+        const Geometry obstacles = united(parts.obstacles, snap_m);
+        impl_->solids = checked(
+            GEOSUnionPrec_r(context(), impl_->solids.get(), obstacles.get(), snap_m), "a union");
+    }
+    impl_->outlines = united(parts.outlines, snap_m);
+    impl_->in_solids.reset(GEOSPrepare_r(context(), impl_->solids.get()));
+    impl_->in_outlines.reset(GEOSPrepare_r(context(), impl_->outlines.get()));
+    std::vector<Line> lines = parts.lines;
+    for (const Polygon& p : parts.outlines) {
+        for (const Ring* ring : rings_of(p)) {
+            lines.push_back(*ring);
+            lines.back().push_back(ring->front());
+        }
+    }
+    if (lines.empty()) return;
+    Geometry once = lines_of(lines);
+    if (!parts.openings.empty()) once = without(once, openings, 0);
+    once = checked(GEOSUnaryUnionPrec_r(context(), once.get(), snap_m), "a union");
+    once = without(once, impl_->solids, snap_m);
+    GEOSLength_r(context(), once.get(), &impl_->lines_m);
+}
+
+Drawn::~Drawn() = default;
+
+double Drawn::border_m() const {
     double border_m = 0;
     GEOSLength_r(context(), impl_->solids.get(), &border_m);
-    return border_m + impl_->lines_m;
+    return border_m;
 }
-
-bool Drawn::solid(const Vec2d& p) const {
-    const Geometry point(GEOSGeom_createPointFromXY_r(context(), p.x(), p.y()));
-    return GEOSPreparedContains_r(context(), impl_->prepared, point.get()) == 1;
+double Drawn::lines_m() const { return impl_->lines_m; }
+double Drawn::solid_m2() const { return area_m2(impl_->solids); }
+double Drawn::outlined_m2() const {
+    return area_m2(without(impl_->outlines, impl_->solids, impl_->snap_m));
 }
+bool Drawn::has_outlines() const { return area_m2(impl_->outlines) > 0; }
+bool Drawn::solid(const Vec2d& p) const { return contains(impl_->in_solids, p); }
+bool Drawn::outlined(const Vec2d& p) const { return contains(impl_->in_outlines, p); }
 
 }  // namespace vfplan::planar

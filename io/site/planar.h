@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/site/feature.h"
+#include "io/features/feature.h"
 
 namespace vfplan::planar {
 
@@ -16,19 +16,32 @@ std::string invalid_reason(const Polygon& polygon);
 // Radius of the largest circle that fits into what the lines surround, to within `tolerance`.
 double inscribed_radius(const std::vector<Line>& border, double tolerance);
 
-// Solids united and lines beside them, on a grid of `snap_m`, as GEOS makes them: what verify holds
-// a site against.
+// What is drawn, by what it does to walls.
+struct Parts {
+    std::vector<Polygon> solids;
+    std::vector<Polygon> openings;  // doors and windows that stand open: they open solids and lines
+    std::vector<Polygon> obstacles;  // solid in openings too
+    std::vector<Polygon> outlines;   // free ground; their rings are walls
+    std::vector<Line> lines;
+};
+
+// Parts united on a grid of `snap_m`, as GEOS makes them: what verify holds a site against.
 class Drawn {
 public:
     // Polygons that cross themselves count as make_valid has them.
-    Drawn(const std::vector<Polygon>& solids, const std::vector<Line>& lines, double snap_m);
+    Drawn(const Parts& parts, double snap_m);
     ~Drawn();
     Drawn(const Drawn&) = delete;
     Drawn& operator=(const Drawn&) = delete;
 
-    double wall_length_m()
-        const;  // the solids' border, and the lines outside them, each stretch once
-    bool solid(const Vec2d& p) const;  // strictly inside; one thread at a time
+    double border_m() const;  // of all that is solid
+    double lines_m() const;   // lines and outlines beside it, each stretch once
+    double solid_m2() const;
+    double outlined_m2() const;  // within outlines, without what is solid
+    bool has_outlines() const;
+    // Strictly inside; one thread at a time.
+    bool solid(const Vec2d& p) const;
+    bool outlined(const Vec2d& p) const;
 
 private:
     struct Impl;

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "io/site/ground.h"
+#include "io/site/openings.h"
 #include "io/site/subdivision.h"
 #include "kernels/index.h"
 
@@ -23,11 +24,16 @@ Linework wall_linework(const FeaturesByRole& in, const SiteOptions& options) {
     for (const Role r : {Role::wall, Role::building}) add_all(out, in, r, solid_wall);
     add_all(out, in, Role::outline, {outline_area, WallClass::wall});
     add_all(out, in, Role::obstacle, {obstacle_area, WallClass::obstacle});
+    constexpr Source opening{opened_area, {}};
     if (options.windows != WindowMode::opening) {
-        add_all(out, in, Role::window, {solid_area, WallClass::window});
+        add_all(out, in, Role::window, {window_area, WallClass::window});
+    } else {
+        for (const Polygon& p : in.polys(Role::window)) out.add(p, opening);
     }
     if (options.doors == DoorMode::closed) {
         add_all(out, in, Role::door, {solid_area, WallClass::door});
+    } else {
+        for (const Polygon& p : in.polys(Role::door)) out.add(p, opening);
     }
     return out;
 }
@@ -123,6 +129,9 @@ public:
         }
     }
 
+    std::vector<OpeningStep> opening_steps() const {
+        return vfplan::opening_steps(s_, wall_, shut_, options_.snap_m, options_.max_opening_m);
+    }
     Ground find() const { return find_ground(s_, wall_, shut_, options_); }
 
     // A wall's side is free where the ground reaches any of it.
@@ -209,9 +218,21 @@ private:
 
 }  // namespace
 
+std::vector<OpeningStep> indoor_opening_steps(const FeaturesByRole& in, SiteOptions options,
+                                              double up_to_m) {
+    options.max_opening_m = up_to_m;
+    const Linework drawn = wall_linework(in, options);
+    Subdivision walls = subdivide(drawn);
+    settle_openings(walls);
+    CleaningCounts ignored;
+    const std::vector<EdgeUse> use = walls_among(walls, ignored);
+    return Plan(walls, use, drawn, in, options).opening_steps();
+}
+
 void build_indoor(const FeaturesByRole& in, const SiteOptions& options, Site& site) {
     const Linework drawn = wall_linework(in, options);
-    const Subdivision walls = subdivide(drawn);
+    Subdivision walls = subdivide(drawn);
+    settle_openings(walls);
     count_edges(drawn, walls.noded, site.counts);
     site.repaired_at = self_crossings(drawn, walls.noded);
     std::vector<EdgeUse> use = walls_among(walls, site.counts);

@@ -8,20 +8,15 @@
 #include <string_view>
 #include <vector>
 
-#include "io/site/feature.h"
+#include "io/features/read_options.h"
 #include "kernels/names.h"
 
 namespace vfplan {
 
-enum class SiteKind : std::uint8_t { outdoor, indoor };
 enum class DoorMode : std::uint8_t { open, closed };
 enum class WindowMode : std::uint8_t { wall, ignore, opening };
 enum class InvalidPolygons : std::uint8_t { error, repair, drop };
 
-template <>
-struct Names<SiteKind> {
-    static constexpr std::array<std::string_view, 2> all = {"outdoor", "indoor"};
-};
 template <>
 struct Names<DoorMode> {
     static constexpr std::array<std::string_view, 2> all = {"open", "closed"};
@@ -33,27 +28,6 @@ struct Names<WindowMode> {
 template <>
 struct Names<InvalidPolygons> {
     static constexpr std::array<std::string_view, 3> all = {"error", "repair", "drop"};
-};
-
-// Features whose class or layer a pattern matches have this role, whatever their words say.
-struct RoleRule {
-    std::string pattern;
-    Role role = Role::ignored;
-    friend bool operator==(const RoleRule&, const RoleRule&) = default;
-};
-
-// What is read from a file, and as what.
-struct ReadOptions {
-    SiteKind kind = SiteKind::outdoor;
-    // Empty: the only one, or all of a DXF, or the polygons of OSM data. For DXF: parts of layers'
-    // names, with commas; case does not matter.
-    std::string layer;
-    std::string where;            // attribute filter, as SQL has it; empty: all
-    std::vector<RoleRule> roles;  // the user's own
-    bool osm_parts = false;       // building:part counts as a building
-    bool osm_barriers = false;    // walls and fences count as walls
-    std::string crs;    // "": as it is; "utm": the zone of the site; else a CRS that PROJ knows
-    double unit_m = 0;  // metres per unit of the file; 0: what the file says, else metres
 };
 
 struct SiteOptions : ReadOptions {
@@ -71,6 +45,7 @@ struct SiteOptions : ReadOptions {
     double min_width_m = 0.3;
     double min_room_m2 = 1;
     double max_gap_m2 = 2;
+    double opening_steps_up_to_m = 0;  // how the ground depends on max_opening_m is wanted
     // Calls body(from, to) for disjoint parts of [0, n), perhaps several at once.
     using Body = std::function<void(std::int64_t, std::int64_t)>;
     std::function<void(std::int64_t n, const Body& body)> for_each =

@@ -1,7 +1,7 @@
 // Towns and cities: walls, their free sides and the free region from features.
 #pragma once
 
-#include "io/site/feature.h"
+#include "io/features/feature.h"
 #include "io/site/site_options.h"
 #include "kernels/wall.h"
 

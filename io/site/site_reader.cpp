@@ -4,12 +4,12 @@
 
 #include <cmath>
 
+#include "io/formats/read_features.h"
 #include "io/site/planar.h"
 #include "io/site/site_indoor.h"
 #include "io/site/site_outdoor.h"
 #include "io/site/stray_features.h"
 #include "io/site/subdivision.h"
-#include "io/site/vector_reader.h"
 #include "kernels/error.h"
 #include "kernels/index.h"
 
@@ -69,7 +69,8 @@ std::vector<std::vector<std::string>> reasons_of(const FeatureSet& set,
 
 void settle_invalid(FeatureSet& set, const SiteOptions& options, const std::string& name,
                     CleaningCounts& counts) {
-    // Where they are to be repaired nobody has to ask: see kernels/faces.h.
+    // Where they are to be repaired nobody has to ask: see kernels/faces.h. A room is no wall: what
+    // its ring surrounds is its floor, however it runs.
     const bool ask = options.invalid != InvalidPolygons::repair;
     const auto reasons = ask ? reasons_of(set, options) : std::vector<std::vector<std::string>>();
     for (std::size_t i = 0; i < set.features.size(); ++i) {
@@ -80,7 +81,8 @@ void settle_invalid(FeatureSet& set, const SiteOptions& options, const std::stri
             Polygon& p = f.polygons[k];
             // A point or a line drawn as a polygon has no area to lose.
             const bool empty = p.outer.size() < 3;
-            if (empty || (ask && !reasons[i][k].empty())) {
+            const bool wrong = ask && f.role != Role::room && !reasons[i][k].empty();
+            if (empty || wrong) {
                 if (!empty && options.invalid == InvalidPolygons::error) {
                     throw InputError(fmt::format(
                         "{}: feature {}{}{}: {}; correct the polygon, or set site.invalid = "
@@ -185,6 +187,10 @@ SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::str
         build_outdoor(sorted, options, site);
     } else {
         build_indoor(sorted, options, site);
+        if (options.opening_steps_up_to_m > 0) {
+            out.opening_steps =
+                indoor_opening_steps(sorted, options, options.opening_steps_up_to_m);
+        }
     }
     site.counts.walls = static_cast<std::int64_t>(site.walls.size());
     site.counts.repaired = static_cast<std::int64_t>(site.repaired_at.size());

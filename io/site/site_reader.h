@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "io/site/feature.h"
+#include "io/features/feature.h"
+#include "io/site/openings.h"
 #include "io/site/site_options.h"
 #include "kernels/wall.h"
 
@@ -16,7 +17,8 @@ struct SiteResult {
     Site site;
     std::vector<std::string> warnings;
     HowRead how;
-    std::vector<Vec2d> points;  // options.points in the input's metres
+    std::vector<OpeningStep> opening_steps;  // of a plan, if wanted
+    std::vector<Vec2d> points;               // options.points in the input's metres
 };
 
 // Reads and cleans. Throws as read_features() does, and InputError for an invalid polygon (by

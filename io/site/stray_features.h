@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "io/site/feature.h"
+#include "io/features/feature.h"
 #include "io/site/site_options.h"
 
 namespace vfplan {

@@ -19,6 +19,12 @@ bool straight(const LatticePoint& a, const LatticePoint& b, const LatticePoint& 
     return Wide(ux) * vy == Wide(uy) * vx && Wide(ux) * vx + Wide(uy) * vy > 0;
 }
 
+// Which class an edge has that lies on two: a window is part of a wall.
+bool before(WallClass a, WallClass b) {
+    const auto rank = [](WallClass c) { return c == WallClass::window ? -1 : static_cast<int>(c); };
+    return rank(a) < rank(b);
+}
+
 struct LatticeWall {
     LatticePoint a;
     LatticePoint b;
@@ -72,7 +78,7 @@ Subdivision subdivide(const Linework& linework, double margin_m) {
         as_walls[e].b = as_vec(s.noded.edges[e].b);
         for (const std::int32_t label : s.noded.labels_of(e)) {
             const Source& source = linework.sources()[idx(label)];
-            if (source.cls && (!s.cls[e] || *source.cls < *s.cls[e])) s.cls[e] = source.cls;
+            if (source.cls && (!s.cls[e] || before(*source.cls, *s.cls[e]))) s.cls[e] = source.cls;
             if (source.cls && source.kind == line_kind) s.line_along[e] = true;
         }
     }
@@ -117,16 +123,45 @@ void count_edges(const Linework& linework, const Noded& noded, CleaningCounts& c
     counts.duplicates += stretches - static_cast<std::int64_t>(noded.edges.size());
 }
 
+void settle_openings(Subdivision& s) {
+    for (std::size_t e = 0; e < s.noded.edges.size(); ++e) {
+        const Kinds on_left = s.kinds[idx(s.triangle_at[e][left])];
+        const Kinds on_right = s.kinds[idx(s.triangle_at[e][right])];
+        if (is_taken(on_left) == is_taken(on_right)) continue;
+        const Kinds solid = is_taken(on_left) ? on_left : on_right;
+        const Kinds free = is_taken(on_left) ? on_right : on_left;
+        if (!s.cls[e] && (free & bit(opened_area)) != 0) {
+            s.cls[e] = (solid & bit(obstacle_area)) != 0 ? WallClass::obstacle : WallClass::wall;
+        }
+        if (s.cls[e] == WallClass::wall && (solid & bit(window_area)) != 0) {
+            s.cls[e] = WallClass::window;
+        }
+    }
+}
+
+namespace {
+
+// An edge between what nobody is kept out of, that a door or window made so: a line in it, or the
+// border of a solid part of it.
+bool opens(Kinds on_left, Kinds on_right, bool line_along) {
+    const Kinds around = line_along ? on_left & on_right : on_left | on_right;
+    return (around & bit(opened_area)) != 0;
+}
+
+}  // namespace
+
 std::vector<EdgeUse> walls_among(const Subdivision& s, CleaningCounts& counts) {
     std::vector<EdgeUse> out(s.noded.edges.size());
     for (std::size_t e = 0; e < out.size(); ++e) {
         if (!s.cls[e]) continue;
         const Kinds on_left = s.kinds[idx(s.triangle_at[e][left])];
         const Kinds on_right = s.kinds[idx(s.triangle_at[e][right])];
-        const bool left_taken = (on_left & taken_areas) != 0;
-        const bool right_taken = (on_right & taken_areas) != 0;
+        const bool left_taken = is_taken(on_left);
+        const bool right_taken = is_taken(on_right);
         if (left_taken && right_taken) {
             ++counts.inside_solids;
+        } else if (!left_taken && !right_taken && opens(on_left, on_right, s.line_along[e])) {
+            ++counts.opened;
         } else if (!s.line_along[e] && left_taken == right_taken &&
                    (on_left & bit(outline_area)) == (on_right & bit(outline_area))) {
             ++counts.slivers;

@@ -17,7 +17,7 @@ namespace vfplan {
 // triangles are in lattice steps (snaps), so that they are exact.
 struct Subdivision {
     Noded noded;
-    std::vector<std::optional<WallClass>> cls;  // by edge: the first class of those it lies on
+    std::vector<std::optional<WallClass>> cls;  // by edge: window before wall, door, obstacle
     std::vector<bool> line_along;               // by edge: a line runs along it, not areas alone
     Triangulation triangles;
     std::vector<Kinds> kinds;                              // by triangle
@@ -41,10 +41,14 @@ struct EdgeUse {
     friend bool operator==(const EdgeUse&, const EdgeUse&) = default;
 };
 
+// Gives classes to the edges that areas within walls make: a wall's end in an opening is a wall,
+// its face in a window is a window.
+void settle_openings(Subdivision& s);
+
 // Which edges are walls, by edge; free sides are left to the caller. An edge is left out when both
-// its sides are taken (counted as inside solids), and when areas alone make it and it parts
-// nothing: what an area thinner than the snap leaves, or the border of two outlines (counted as
-// slivers).
+// its sides are taken (counted as inside solids) or in an opening (counted as opened), and when
+// areas alone make it and it parts nothing: what an area thinner than the snap leaves, or the
+// border of two outlines (counted as slivers).
 std::vector<EdgeUse> walls_among(const Subdivision& s, CleaningCounts& counts);
 
 // The walls of a subdivision. Neighbours in one straight line, of one class and use, that meet

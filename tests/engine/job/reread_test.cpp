@@ -20,21 +20,42 @@ protected:
         config.site.input = file.path();
         Site site = read_site(file.path(), ground_options(config).site).site;
         tables.origin = site.origin;
+        tables.summary = R"({"site":{"area_m2":140.0}})";
         tables.walls = std::move(site.walls);
     }
-    bool good() const { return reread(config, tables).good; }
+    bool good() const { return reread(config, tables, nullptr).good; }
     test::TemporaryFile file;
     Config config;
     CoverageTables tables;
 };
 
 TEST_F(RereadTest, WhatIsDrawnIsThere) {
-    const Reread r = reread(config, tables);
+    const Reread r = reread(config, tables, nullptr);
     EXPECT_TRUE(r.good);
-    ASSERT_EQ(r.text.size(), 2U);
+    ASSERT_EQ(r.text.size(), 4U);
     // Two rings in one of 2 x (15 + 12) m, and 5 + 10 m of fence beside it.
     EXPECT_NE(r.text[0].find("69.00 m of walls, 69.00 m in the tables"), std::string::npos)
         << r.text[0];
+    EXPECT_NE(r.text[1].find("54.00 m with one free side, 15.00 m with two"), std::string::npos)
+        << r.text[1];
+    EXPECT_NE(r.text[2].find("140.00 m2 are built over"), std::string::npos) << r.text[2];
+}
+
+TEST_F(RereadTest, AnotherAreaIsSeen) {
+    tables.summary = R"({"site":{"area_m2":140.2}})";
+    EXPECT_FALSE(good());
+}
+
+TEST_F(RereadTest, AFreeSideLessIsSeen) {
+    for (Wall& w : tables.walls) {
+        for (const Side side : {left, right}) {
+            if (!w.free_side[side]) continue;
+            w.free_side[side] = false;
+            EXPECT_FALSE(good());
+            w.free_side[side] = true;
+        }
+    }
+    EXPECT_TRUE(good());
 }
 
 TEST_F(RereadTest, AWallLessIsSeen) {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "io/site/feature.h"
+#include "io/features/feature.h"
 #include "kernels/wall.h"
 
 namespace vfplan::test {

@@ -95,6 +95,10 @@ private:
     std::filesystem::path path_;
 };
 
+inline void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
+    std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
+}
+
 // Damages a file. Readers check a file again when its time or size is another: as days later.
 inline void overwrite(const std::filesystem::path& file, const std::string& bytes) {
     static int writes = 0;

@@ -2,7 +2,7 @@
 // drawing.
 #include <gtest/gtest.h>
 
-#include "io/site/vector_reader.h"
+#include "io/formats/read_features.h"
 #include "tests/data.h"
 #include "tests/io/site/drawing.h"
 #include "tests/io/site/features.h"

@@ -1,7 +1,7 @@
 // Outdoor sites: polygons are solid, the ground between them is free.
 #include <gtest/gtest.h>
 
-#include "io/site/vector_reader.h"
+#include "io/formats/read_features.h"
 #include "kernels/error.h"
 #include "tests/data.h"
 #include "tests/io/site/features.h"

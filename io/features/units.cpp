@@ -1,10 +1,10 @@
-#include "io/site/units.h"
+#include "io/features/units.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <fstream>
+#include <sstream>
 #include <vector>
 
 #include "kernels/error.h"
@@ -35,11 +35,10 @@ std::string trimmed(const std::string& line) {
 
 }  // namespace
 
-Unit unit_of_dxf(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    constexpr int header_lines = 20000;
+Unit unit_of_dxf(const std::string& head) {
+    std::istringstream in(head);
     std::string line;
-    for (int i = 0; i < header_lines && std::getline(in, line); ++i) {
+    while (std::getline(in, line)) {
         const std::string word = trimmed(line);
         if (word == "ENDSEC" || word == "ENTITIES") break;
         if (word != "$INSUNITS") continue;

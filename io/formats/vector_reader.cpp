@@ -1,4 +1,4 @@
-#include "io/site/vector_reader.h"
+#include "io/formats/vector_reader.h"
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
@@ -18,66 +18,21 @@
 #include <sstream>
 #include <tuple>
 
-#include "io/site/crs.h"
-#include "io/site/roles.h"
-#include "io/site/units.h"
+#include "io/features/crs.h"
+#include "io/features/role_tally.h"
+#include "io/features/roles.h"
+#include "io/formats/dxf_text.h"
+#include "io/formats/json_document.h"
+#include "io/formats/osm_text.h"
 #include "kernels/error.h"
 
 namespace vfplan {
 namespace {
 
-// GDAL's words about its own failures, for our messages; nothing is printed behind our back.
-class QuietErrors {
-public:
-    QuietErrors() {
-        CPLErrorReset();
-        CPLPushErrorHandler(CPLQuietErrorHandler);
-    }
-    ~QuietErrors() { CPLPopErrorHandler(); }
-    QuietErrors(const QuietErrors&) = delete;
-    QuietErrors& operator=(const QuietErrors&) = delete;
-    static std::string last() { return CPLGetLastErrorMsg(); }
-};
-
-struct DatasetCloser {
-    void operator()(GDALDatasetH d) const { GDALClose(d); }
-};
-using Dataset = std::unique_ptr<void, DatasetCloser>;
-
 struct FeatureDestroyer {
     void operator()(OGRFeatureH f) const { OGR_F_Destroy(f); }
 };
 using FeaturePtr = std::unique_ptr<std::remove_pointer_t<OGRFeatureH>, FeatureDestroyer>;
-
-Dataset open(const std::filesystem::path& file) {
-    static std::once_flag registered;
-    std::call_once(registered, [] {
-        GDALAllRegister();
-        CPLSetConfigOption("OSM_USE_CUSTOM_INDEXING", "NO");  // it refuses negative ids
-    });
-    if (!std::filesystem::exists(file)) {
-        throw IoError(
-            fmt::format("{}: no such file; check site.input (it is relative to the job "
-                        "file)",
-                        file.string()));
-    }
-    if (std::filesystem::is_regular_file(file) && std::filesystem::file_size(file) == 0) {
-        throw InputError(
-            fmt::format("{}: the file is empty; export the site again", file.string()));
-    }
-    std::string name = file.string();
-    if (file.extension() == ".gz") name = "/vsigzip/" + name;
-    Dataset set(
-        GDALOpenEx(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
-    if (!set) {
-        const std::string why = QuietErrors::last();
-        throw InputError(
-            fmt::format("{}: not vector data that can be read{}{}; give GeoJSON, "
-                        "GeoPackage, Shapefile, OSM or DXF",
-                        file.string(), why.empty() ? "" : ": ", why));
-    }
-    return set;
-}
 
 std::vector<OGRLayerH> choose_layers(GDALDatasetH set, const std::string& driver,
                                      const ReadOptions& options,
@@ -195,24 +150,24 @@ bool on_dxf_layer(OGRFeatureH feature, const std::string& wanted) {
 }
 
 // Appends a ring or line; `closed` drops the repeated last point.
-Line points_of(OGRGeometryH g, bool closed, double unit_m) {
+Line points_of(OGRGeometryH g, bool closed) {
     Line line;
     const int n = OGR_G_GetPointCount(g);
     line.reserve(static_cast<std::size_t>(n));
     for (int i = 0; i < n; ++i) {
-        line.emplace_back(OGR_G_GetX(g, i) * unit_m, OGR_G_GetY(g, i) * unit_m);
+        line.emplace_back(OGR_G_GetX(g, i), OGR_G_GetY(g, i));
     }
     if (closed && line.size() > 1 && line.front() == line.back()) line.pop_back();
     return line;
 }
 
-void collect(OGRGeometryH g, double unit_m, Feature& out) {
+void collect(OGRGeometryH g, Feature& out) {
     switch (wkbFlatten(OGR_G_GetGeometryType(g))) {
         case wkbPolygon:
         case wkbTriangle: {
             Polygon p;
             for (int i = 0; i < OGR_G_GetGeometryCount(g); ++i) {
-                Ring ring = points_of(OGR_G_GetGeometryRef(g, i), true, unit_m);
+                Ring ring = points_of(OGR_G_GetGeometryRef(g, i), true);
                 if (i == 0) {
                     p.outer = std::move(ring);
                 } else {
@@ -223,27 +178,25 @@ void collect(OGRGeometryH g, double unit_m, Feature& out) {
             break;
         }
         case wkbLineString: {
-            Line line = points_of(g, false, unit_m);
+            Line line = points_of(g, false);
             if (line.size() > 1) out.lines.push_back(std::move(line));
             break;
         }
         default:
             for (int i = 0; i < OGR_G_GetGeometryCount(g); ++i) {
-                collect(OGR_G_GetGeometryRef(g, i), unit_m, out);
+                collect(OGR_G_GetGeometryRef(g, i), out);
             }
     }
 }
 
 // The features of a layer. `told`: by feature, whether its words told its role.
-void read_layer(OGRLayerH layer, const std::string& driver, double unit_m,
-                const ReadOptions& options, const std::filesystem::path& file, FeatureSet& out,
-                std::vector<bool>& told) {
-    std::map<std::tuple<std::string, std::string, std::string>, std::int64_t>
-        as;  // text, role, why
+void read_layer(OGRLayerH layer, const std::string& driver, const ReadOptions& options,
+                const std::filesystem::path& file, FeatureSet& out, std::vector<bool>& told) {
+    RoleTally tally;
     if (!options.where.empty() &&
         OGR_L_SetAttributeFilter(layer, options.where.c_str()) != OGRERR_NONE) {
         throw UsageError(fmt::format("site.where = '{}': {}; {} has the fields it can ask for",
-                                     options.where, QuietErrors::last(), file.string()));
+                                     options.where, QuietGdal::last(), file.string()));
     }
     OGR_L_ResetReading(layer);
     std::int64_t number = 0;
@@ -255,40 +208,39 @@ void read_layer(OGRLayerH layer, const std::string& driver, double unit_m,
         OGRGeometryH geometry = OGR_F_GetGeometryRef(f.get());
         if (geometry != nullptr) {
             OGRGeometryH linear = OGR_G_GetLinearGeometry(geometry, 0, nullptr);
-            collect(linear, unit_m, feature);
+            collect(linear, feature);
             OGR_G_DestroyGeometry(linear);
         }
         const Told what = driver == "OSM" ? told_by_osm(f.get(), options)
                                           : told_by_words(f.get(), OGR_L_GetName(layer), options);
         if (what.skip || (feature.polygons.empty() && feature.lines.empty()) ||
             (driver == "DXF" && !options.layer.empty() && !on_dxf_layer(f.get(), options.layer))) {
-            ++out.ignored;
-            ++as[{what.text, "left out", what.why}];
+            tally.count(what.text, {}, what.why);
             continue;
         }
         feature.role = what.role.value_or(default_role(options.kind, !feature.polygons.empty()));
-        ++as[{what.text, std::string(name_of(feature.role)), what.why}];
+        tally.count(what.text, feature.role, what.why);
         told.push_back(what.role.has_value());
         out.features.push_back(std::move(feature));
     }
-    for (const auto& [key, count] : as) {
-        const auto& [text, role, why] = key;
-        out.how.as.push_back({OGR_L_GetName(layer), text, role, why, count});
-    }
+    tally.add_to(out, OGR_L_GetName(layer));
 }
 
-void check_coordinates(const FeatureSet& set, const std::filesystem::path& file) {
-    constexpr double farthest_m = 1e8;  // beyond any map of the earth
-    for (const Feature& f : set.features) {
-        each_point(f, [&](const Vec2d& v) {
-            const bool number = std::isfinite(v.x()) && std::isfinite(v.y());
-            if (number && v.cwiseAbs().maxCoeff() < farthest_m) return;
-            throw InputError(
-                fmt::format("{}: feature {}{}{}: a coordinate is no {} ({}, {}); correct or "
-                            "remove the feature",
-                            file.string(), f.number, f.id.empty() ? "" : ", id ", f.id,
-                            number ? "place on earth" : "number", v.x(), v.y()));
-        });
+// A drawing with a layer of walls has furniture, fixtures and text on its other layers.
+void leave_out_fixtures(FeatureSet& set, const std::vector<bool>& told) {
+    bool walls_told = false;
+    for (std::size_t i = 0; i < told.size(); ++i) {
+        walls_told = walls_told || (told[i] && set.features[i].role == Role::wall);
+    }
+    if (!walls_told) return;
+    for (std::size_t i = 0; i < told.size(); ++i) {
+        if (!told[i]) set.features[i].role = Role::ignored;
+    }
+    for (ReadAs& as : set.how.as) {
+        if (as.why == "shape" && as.role != "left out") {
+            as.role = "ignored";
+            as.why = "other layers have the walls";
+        }
     }
 }
 
@@ -305,44 +257,65 @@ DeclaredCrs declared_crs(OGRLayerH layer, const std::string& driver) {
     return out;
 }
 
+bool is_json(const PackedFile& packed) {
+    const auto first = packed.head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    return first != std::string::npos && packed.head[first] == '{';
+}
+
+// Where in a JSON text the words stand that GDAL complains of, as ":line:column"; empty if nowhere.
+std::string place_of(const std::string& why, const PackedFile& packed,
+                     const std::filesystem::path& file) {
+    const auto from = why.find('\'', why.find(" for ")) + 1;
+    const auto to = why.rfind('\'');
+    if (!is_json(packed) || from == 0 || to == std::string::npos || to <= from) return "";
+    const std::string text = read_text(packed, file);
+    const auto at = text.find(why.substr(from, to - from));
+    return at == std::string::npos ? "" : fmt::format(":{}", place_in(text, at));
+}
+
 }  // namespace
 
-FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& options) {
-    const QuietErrors quiet;
-    const Dataset set = open(file);
+Drawing read_vector(const PackedFile& packed, const std::filesystem::path& file,
+                    const ReadOptions& options) {
+    use_gdal();
+    const QuietGdal quiet;
+    const auto opened = [](const std::string& name) {
+        return Dataset(
+            GDALOpenEx(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
+    };
+    std::unique_ptr<FileInMemory> changed;  // lives longer than the set
+    Dataset set = opened(packed.name);
+    if (!set) {
+        const std::string why = QuietGdal::last();
+        if (is_json(packed)) check_json(read_text(packed, file), file);
+        throw InputError(
+            fmt::format("{}: not a site that can be read{}{}; docs/formats.md has the "
+                        "formats: GeoJSON, GeoPackage, Shapefile, OSM, DXF and more",
+                        file.string(), why.empty() ? "" : ": ", why));
+    }
     const std::string driver = GDALGetDriverShortName(GDALGetDatasetDriver(set.get()));
-    Unit unit;
-    if (driver == "DXF") unit = unit_of_dxf(file);
-    const double unit_m = options.unit_m > 0 ? options.unit_m : unit.metres;
-    FeatureSet out;
-    std::vector<bool> told;
-    const std::vector<OGRLayerH> layers = choose_layers(set.get(), driver, options, file);
-    for (OGRLayerH layer : layers) read_layer(layer, driver, unit_m, options, file, out, told);
-    // A drawing with a layer of walls has furniture, fixtures and text on its other layers.
-    bool walls_told = false;
-    for (std::size_t i = 0; i < told.size(); ++i) {
-        walls_told = walls_told || (told[i] && out.features[i].role == Role::wall);
-    }
-    for (std::size_t i = 0; driver == "DXF" && walls_told && i < told.size(); ++i) {
-        if (!told[i]) out.features[i].role = Role::ignored;
-    }
-    for (ReadAs& as : out.how.as) {
-        if (driver == "DXF" && walls_told && as.why == "shape" && as.role != "left out") {
-            as.role = "ignored";
-            as.why = "other layers have the walls";
+    Drawing out;
+    if (driver == "DXF") {
+        out.unit = unit_of_dxf(packed.head);
+        const std::string text = read_text(packed, file);
+        check_dxf(text, file);
+        if (auto drawn = with_splines_drawn(text)) {
+            changed = std::make_unique<FileInMemory>(std::move(*drawn));
+            set = opened(changed->name());
         }
     }
-    if (CPLGetLastErrorType() >= CE_Failure) {
-        throw InputError(fmt::format("{}: {}; the file is damaged, export the site again",
-                                     file.string(), QuietErrors::last()));
+    if (driver == "OSM" && packed.head.find("<osm") != std::string::npos) check_osm(packed, file);
+    std::vector<bool> told;
+    const std::vector<OGRLayerH> layers = choose_layers(set.get(), driver, options, file);
+    for (OGRLayerH layer : layers) read_layer(layer, driver, options, file, out.set, told);
+    if (driver == "DXF") leave_out_fixtures(out.set, told);
+    if (QuietGdal::failed()) {
+        const std::string why = QuietGdal::last();
+        throw InputError(fmt::format("{}{}: {}; the file is damaged, export the site again",
+                                     file.string(), place_of(why, packed, file), why));
     }
-    out.how.format = driver;
-    out.how.unit = options.unit_m > 0   ? fmt::format("{} m (site.unit_m)", options.unit_m)
-                   : !unit.said.empty() ? unit.said
-                                        : "none said, taken for metres";
-    check_coordinates(out, file);
-    if (!layers.empty()) settle_crs(out, declared_crs(layers.front(), driver), options, file);
-    check_size(out, unit, options, file);
+    out.set.how.format = driver;
+    if (!layers.empty()) out.crs = declared_crs(layers.front(), driver);
     return out;
 }
 

@@ -1,4 +1,4 @@
-#include "io/site/crs.h"
+#include "io/features/crs.h"
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
@@ -197,6 +197,13 @@ void settle_crs(FeatureSet& set, const DeclaredCrs& declared, const ReadOptions&
     }
     check_metres(set, source.get(), file);
     set.crs_wkt = wkt_of(source.get());
+}
+
+std::string wkt_of_code(const std::string& code) {
+    const Srs srs(OSRNewSpatialReference(nullptr));
+    if (code.empty() || OSRSetFromUserInput(srs.get(), code.c_str()) != OGRERR_NONE) return "";
+    if (OSRIsCompound(srs.get()) != 0) OSRStripVertical(srs.get());
+    return wkt_of(srs.get());
 }
 
 std::function<Vec2d(const Vec2d&)> to_degrees(const std::string& wkt) {

@@ -1,4 +1,4 @@
-#include "io/site/roles.h"
+#include "io/features/roles.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

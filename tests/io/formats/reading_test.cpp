@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "io/site/vector_reader.h"
+#include "io/formats/read_features.h"
 #include "kernels/error.h"
 #include "tests/io/site/features.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "io/site/feature.h"
-#include "io/site/site_options.h"
+#include "io/features/feature.h"
+#include "io/features/read_options.h"
 
 namespace vfplan {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "io/site/feature.h"
-#include "io/site/site_options.h"
+#include "io/features/feature.h"
+#include "io/features/read_options.h"
 
 namespace vfplan {
 
@@ -14,8 +14,9 @@ struct Unit {
     std::string said;  // how the file says so, for messages; empty when it says nothing
 };
 
-// $INSUNITS in the header of a DXF file in text form; metres when there is none.
-Unit unit_of_dxf(const std::filesystem::path& file);
+// $INSUNITS in the header of a DXF file in text form, of which `head` is the beginning; metres when
+// there is none.
+Unit unit_of_dxf(const std::string& head);
 
 // Throws InputError when a floor plan would be larger than 2 km or smaller than 2 m, with the unit
 // that would make it a building. A user who set options.unit_m knows.

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "io/site/feature.h"
-#include "io/site/site_options.h"
+#include "io/features/feature.h"
+#include "io/features/read_options.h"
 
 namespace vfplan {
 
@@ -22,6 +22,10 @@ struct DeclaredCrs {
 // coordinates that cannot be projected, UsageError for a CRS that is none or is not in metres.
 void settle_crs(FeatureSet& set, const DeclaredCrs& declared, const ReadOptions& options,
                 const std::filesystem::path& file);
+
+// The definition of a code such as "EPSG:7415"; of one with heights only the plane part. Empty when
+// there is none.
+std::string wkt_of_code(const std::string& code);
 
 // From the metres of a CRS, as WKT, to longitude and latitude (WGS 84); empty for an empty CRS and
 // for one that has no way there. What it returns is not thread-safe.

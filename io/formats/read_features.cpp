@@ -1,0 +1,156 @@
+#include "io/formats/read_features.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "io/formats/art_gallery.h"
+#include "io/formats/cityjson.h"
+#include "io/formats/gdal.h"
+#include "io/formats/house_expo.h"
+#include "io/formats/office_xml.h"
+#include "io/formats/ros_map.h"
+#include "io/formats/structured3d.h"
+#include "io/formats/sweet_home.h"
+#include "io/formats/vector_reader.h"
+#include "kernels/error.h"
+
+namespace vfplan {
+namespace {
+
+bool holds(const std::string& text, std::string_view word) {
+    return text.find(word) != std::string::npos;
+}
+
+// What people give that is no site, and what they can do.
+struct Stranger {
+    std::string_view begins;
+    const char* what;
+    const char* instead;
+};
+constexpr std::array<Stranger, 7> strangers = {{
+    {"ISO-10303-21", "an IFC or STEP model",
+     "cut it at the scanner's height with IfcConvert or another program (docs/formats.md says "
+     "how)"},
+    {"AC10", "a DWG drawing", "save it as DXF"},
+    {"%PDF", "a PDF", "ask for the drawing as DXF, or trace it"},
+    {"LASF", "a point cloud", "extract walls or footprints from it first"},
+    {"\x89PNG", "an image", "give it with a ROS map's YAML file (docs/formats.md), or trace it"},
+    {"P5", "an image", "give the YAML file that goes with it"},
+    {"\xFF\xD8\xFF", "an image",
+     "give it with a ROS map's YAML file (docs/formats.md), or trace it"},
+}};
+
+// JSON that GDAL does not know; nothing where GDAL shall try. GeoJSON is left to GDAL without being
+// read whole: it may be a county.
+std::optional<Drawing> read_json(const PackedFile& packed, const std::filesystem::path& file,
+                                 const ReadOptions& options) {
+    if (holds(packed.head, "\"FeatureCollection\"")) return {};
+    constexpr std::array ours = {"\"CityObjects\"", "\"CityJSON\"", "\"verts\"", "\"junctions\""};
+    const bool hinted = std::any_of(ours.begin(), ours.end(),
+                                    [&](const char* key) { return holds(packed.head, key); });
+    const std::string text = read_text(packed, file);
+    nlohmann::json document;
+    try {
+        document = parse_json(text, file);
+    } catch (const InputError&) {
+        if (hinted) throw;
+        return {};
+    }
+    const JsonAt root(document, file);
+    try {
+        if (root.has("CityObjects")) return read_cityjson(root, options);
+        if (root.has("verts")) return read_house_expo(root, options);
+        if (root.has("junctions") && root.has("lineJunctionMatrix")) {
+            return read_structured3d(root, options);
+        }
+    } catch (const nlohmann::json::exception& e) {
+        throw InputError(
+            fmt::format("{}: something in it has another type than its format says "
+                        "({}); export the site again",
+                        file.string(), e.what()));
+    }
+    return {};
+}
+
+// A reader of ours that knows the content.
+std::optional<Drawing> read_ours(const PackedFile& packed, const std::filesystem::path& file,
+                                 const ReadOptions& options) {
+    const std::string& head = packed.head;
+    for (const Stranger& s : strangers) {
+        if (head.rfind(s.begins, 0) == 0) {
+            throw InputError(
+                fmt::format("{}: this is {}, not a site; {}", file.string(), s.what, s.instead));
+        }
+    }
+    const auto first = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    if (first == std::string::npos) return {};
+    if (head[first] == '{') return read_json(packed, file, options);
+    if (head[first] == '<') {
+        const std::string root = root_element(head);
+        if (root == "home") {
+            return read_sweet_home(XmlDocument(read_text(packed, file), file), options);
+        }
+        if (root == "building" && holds(head, "<scale>")) {
+            return read_office_xml(XmlDocument(read_text(packed, file), file), options);
+        }
+        return {};
+    }
+    if (looks_like_art_gallery(head)) {
+        return read_art_gallery(read_text(packed, file), file, options);
+    }
+    if (looks_like_ros_map(head, file)) return read_ros_map(read_text(packed, file), file, options);
+    return {};
+}
+
+void check_coordinates(const FeatureSet& set, const std::filesystem::path& file) {
+    constexpr double farthest_m = 1e8;  // beyond any map of the earth
+    for (const Feature& f : set.features) {
+        each_point(f, [&](const Vec2d& v) {
+            const bool number = std::isfinite(v.x()) && std::isfinite(v.y());
+            if (number && v.cwiseAbs().maxCoeff() < farthest_m) return;
+            throw InputError(
+                fmt::format("{}: feature {}{}{}: a coordinate is no {} ({}, {}); correct or "
+                            "remove the feature",
+                            file.string(), f.number, f.id.empty() ? "" : ", id ", f.id,
+                            number ? "place on earth" : "number", v.x(), v.y()));
+        });
+    }
+}
+
+}  // namespace
+
+FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& options) {
+    const PackedFile packed = look_into(file);
+    std::optional<Drawing> ours = read_ours(packed, file, options);
+    if (ours && !options.where.empty()) {
+        throw UsageError(
+            fmt::format("site.where = '{}': {} is {}, whose features have no "
+                        "attributes to ask for; leave it out, or use site.roles",
+                        options.where, file.string(), ours->set.how.format));
+    }
+    if (ours && !options.layer.empty() && ours->set.how.format != "Sweet Home 3D") {
+        throw InputError(fmt::format("{}: no layer '{}'; {} has no layers, leave site.layer out",
+                                     file.string(), options.layer, ours->set.how.format));
+    }
+    Drawing drawing = ours ? std::move(*ours) : read_vector(packed, file, options);
+    FeatureSet& set = drawing.set;
+    const double unit_m = options.unit_m > 0 ? options.unit_m : drawing.unit.metres;
+    if (unit_m != 1) {
+        for (Feature& f : set.features) each_point(f, [&](Vec2d& v) { v *= unit_m; });
+    }
+    set.how.unit = options.unit_m > 0           ? fmt::format("{} m (site.unit_m)", options.unit_m)
+                   : !drawing.unit.said.empty() ? drawing.unit.said
+                                                : "none said, taken for metres";
+    check_coordinates(set, file);
+    const QuietGdal quiet;
+    settle_crs(set, drawing.crs, options, file);
+    check_size(set, drawing.unit, options, file);
+    return std::move(drawing.set);
+}
+
+}  // namespace vfplan
