@@ -10,6 +10,7 @@
 
 #include "engine/generate/generate.h"
 #include "engine/tables/shards.h"
+#include "engine/tables/standable.h"
 #include "io/files.h"
 #include "io/site/site_reader.h"
 #include "io/tables/site_store.h"

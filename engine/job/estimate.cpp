@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <filesystem>
+#include <optional>
 
 #include "engine/config/options.h"
-#include "engine/job/sample.h"
+#include "engine/job/needs.h"
+#include "engine/runtime/memory.h"
+#include "engine/runtime/stop.h"
+#include "engine/tables/paths.h"
 #include "engine/tables/site.h"
+#include "engine/tables/standable.h"
 #include "io/exports/outputs.h"
 #include "kernels/coverage.h"
 
@@ -47,66 +52,156 @@ double files_s(const Config& config, const Estimate& e) {
            outputs_take(config, e, &Output::seconds);
 }
 
-double tables_memory_mb(const Config& config, const Estimate& e, const Threads& threads) {
-    const double tile = static_cast<double>(config.field.tile_cells);
-    const double cells =
-        std::min(static_cast<double>(e.cells),
-                 std::pow(tile + 2 * config.scanner.range_max_m / config.field.cell_m + 100, 2));
-    const double share = cells / static_cast<double>(std::max<std::int64_t>(1, e.cells));
-    const double rows = static_cast<double>(e.entries) * share * 24;
-    const double lanes = std::min<double>(threads.count(), std::ceil(1 / share));
-    return lanes * (cells * 32 + rows) / 1e6;
+// Cells of a tile with so many around it, as far as the grid goes.
+double window_cells(const Layout& layout, double margin) {
+    const double side = layout.tile_cells + 2 * margin;
+    return std::min<double>(layout.grid.nx, side) * std::min<double>(layout.grid.ny, side);
+}
+
+double tables_memory_mb(const Layout& layout, double range_m, const Estimate& e, double walls,
+                        const Threads& threads) {
+    const double range = range_m / layout.grid.cell_m;
+    const auto cells = static_cast<double>(e.cells);
+    const double patch = static_cast<double>(std::min(layout.patch_cells, layout.grid.nx)) *
+                         std::min(layout.patch_cells, layout.grid.ny);
+    const double skeleton = window_cells(layout, range + 50);
+    const double lanes = std::min<double>(threads.count(), static_cast<double>(layout.tiles()));
+    // A bit of each cell, and four bytes of some while free ones are found; then bytes of a cell in
+    // the windows that phases work on.
+    const double site =
+        cells / 8 +
+        lanes * 4 * std::min(cells, std::max(patch, static_cast<double>(cells_at_once)));
+    const double field = lanes * 5 * patch;
+    const double thinning = lanes * 32 * skeleton;
+    const double paths = lanes * 20 * window_cells(layout, paths_reach_ranges * range);
+    const double rows = lanes * 24 * static_cast<double>(e.entries) * skeleton / cells;
+    const double near = std::min(walls, walls * 4 * patch / cells);  // of a patch, and around it
+    const double scene = 800 * near;
+    return (std::max({site, field, thinning + rows, paths}) + scene) / 1e6;
+}
+
+// What tiles cost beside their cells, in files; small tiles on a large grid are many.
+constexpr double field_shard_mb = 0.010;
+constexpr double open_shard_mb = 6.4;        // in memory
+constexpr double passing_shards_mb = 0.006;  // of all phases
+
+double shards_s(const Layout& layout, double range_m) {
+    constexpr double write_s = 0.03;  // through all phases
+    constexpr double read_s = 3e-4;
+    const double margin = range_m / layout.grid.cell_m + 48;
+    const auto read_along = [&](std::int32_t cells) {
+        return std::ceil(std::min<double>(cells, layout.tile_cells + 2 * margin) /
+                         layout.tile_cells);
+    };
+    const double read = read_along(layout.grid.nx) * read_along(layout.grid.ny);
+    return static_cast<double>(layout.tiles() - 1) * (write_s + read * read_s);
+}
+
+void warn_of_shortage(const Estimate& e, const std::filesystem::path& out, Progress& progress) {
+    const MemoryLimit limit = memory_limit();
+    if (1e6 * e.memory_mb > limit.bytes) {
+        progress.warn(fmt::format(
+            "the job takes about {:.2g} GB of memory, and {} {:.2g} GB; take larger cells or "
+            "pieces, smaller tiles (field.tile_cells), a shorter range, or site.crop_m",
+            e.memory_mb / 1e3, limit.whose, limit.bytes / 1e9));
+    }
+    std::error_code error;
+    std::filesystem::path there = std::filesystem::absolute(out, error);
+    while (!std::filesystem::exists(there, error) && there != there.parent_path()) {
+        there = there.parent_path();
+    }
+    const auto space = std::filesystem::space(there, error);
+    const double wanted_mb = e.disk_mb + e.working_mb;
+    if (!error && 1e6 * wanted_mb > static_cast<double>(space.available)) {
+        progress.warn(fmt::format(
+            "the job takes about {:.2g} GB of disk, and {} has {:.2g} GB free; free some, choose "
+            "another --out, or take larger cells",
+            wanted_mb / 1e3, there.string(), static_cast<double>(space.available) / 1e9));
+    }
+}
+
+std::string sample_text(const Sample& s, const Config& config) {
+    std::string cells;
+    if (s.cell_m > config.field.cell_m) cells = fmt::format(", with cells of {:.2g} m", s.cell_m);
+    const std::string clock =
+        s.cut_short ? "; a few seconds were not enough for more, so this is rough" : "";
+    if (s.share == 0) return "nothing" + clock;
+    if (s.squares == 0) return fmt::format("the whole site{}{}", cells, clock);
+    return fmt::format("{:.3g} % of the walls, in {} squares{}{}", 100 * s.share, s.squares, cells,
+                       clock);
 }
 
 }  // namespace
 
-Estimate estimate(const Config& config, const Threads& threads, Progress& progress) {
+Estimate estimate(const Config& config, const JobOptions& options, Progress& progress) {
     const GroundOptions ground = ground_options(config);
+    const Threads threads(options.threads, stop_if_asked);
     const Moment begin = Moment::now();
+    std::optional<SignalsEnd> at_once(std::in_place);  // nothing is written yet
     const Site site = read_ground(ground, threads, progress);
     const double site_s = Moment::now().wall_s - begin.wall_s;
     const Layout layout = layout_of(ground, site);
     Estimate e;
     e.cells = layout.grid.size();
-    for (const auto& bits : standable_bits(ground, site, layout, threads)) {
-        for (const std::uint8_t byte : bits) e.free_cells += std::popcount(byte);
-    }
     e.pieces = cut_into_pieces(site.walls, ground.partition_m).size();
+    check_memory(ground, layout, e.pieces, options.plan, memory_limit());
+    constexpr std::int64_t looked_at_most = 20'000'000;
+    const Moment count_begin = Moment::now();
+    const FreeCells free = count_free_cells(ground, site, layout.grid, threads, looked_at_most);
+    const double count_s = Moment::now().wall_s - count_begin.wall_s;
+    e.free_cells = free.count;
+    e.free_cells_exact = free.exact;
+    if (free.exact) check_free_cells(ground, free.count);
     const double site_mb = progress.peak_rss_mb();
     progress.stage("sample");
-    const Sample s = try_squares(ground, table_options(config), site, threads);
-    e.whole = s.whole;
-    e.candidates = static_cast<std::int64_t>(s.candidates / s.share);
-    e.entries = static_cast<std::int64_t>(s.entries / s.share);
+    at_once.reset();
+    e.sample = try_job(ground, table_options(config), site, layout, options.threads);
+    const Totals& s = e.sample.site;
+    e.candidates = std::llround(s.candidates);
+    e.entries = std::llround(s.entries);
     const auto walls = static_cast<double>(site.walls.size());
+    const auto cells = static_cast<double>(e.cells);
     // Libraries; and the picture in memory, a few times over.
     const double base_mb = 65 + outputs_take(config, e, &Output::memory_bytes) / 1e6;
-    e.memory_mb = std::max({site_mb, base_mb + tables_memory_mb(config, e, threads),
-                            base_mb + plan_memory_mb(e, walls)});
-    e.disk_mb = (s.field_bytes + s.coverage_bytes) / s.share / 1e6 + files_mb(config, e, walls);
-    e.working_mb = s.working_bytes / s.share / 1e6;
-    const double plan_s = 3.5e-7 * static_cast<double>(e.entries);
+    const double range_m = config.scanner.range_max_m;
+    // The field is read in rows, for which the shards of all tiles beside each other are open.
+    const double rows_mb = open_shard_mb * layout.tile_columns();
+    e.memory_mb = std::max({site_mb, 65 + tables_memory_mb(layout, range_m, e, walls, threads),
+                            base_mb + plan_memory_mb(e, walls), base_mb + rows_mb});
+    const auto tiles = static_cast<double>(layout.tiles());
+    const double tables_mb = (s.field_bytes + s.coverage_bytes) / 1e6 + field_shard_mb * tiles;
+    e.disk_mb = tables_mb + files_mb(config, e, walls);
+    e.working_mb = std::max(0.0, s.working_bytes / 1e6 + passing_shards_mb * tiles -
+                                     outputs_take(config, e, &Output::bytes) / 1e6);
+    const double looked_at = std::min(cells, static_cast<double>(looked_at_most));
+    const double plan_s = 3.5e-7 * s.entries;
     constexpr double serial = 0.12;  // of the tables: what the leader does alone
-    e.wall_s = site_s + s.cpu_s / s.share * (serial + (1 - serial) / threads.count()) + plan_s +
-               files_s(config, e) + 0.2;
+    e.wall_s = site_s + count_s * cells / looked_at +
+               s.cpu_s * (serial + (1 - serial) / threads.count()) +
+               shards_s(layout, range_m) / threads.count() + plan_s + files_s(config, e) + 0.2;
+    warn_of_shortage(e, options.out, progress);
     progress.finish();
     return e;
 }
 
 std::string estimate_text(const Estimate& e, const Config& config, const Threads& threads) {
     const auto span = [](double s) {
-        return s < 90 ? fmt::format("{:.2g} s", s) : fmt::format("{:.0f} min", std::ceil(s / 60));
+        if (s < 90) return fmt::format("{:.2g} s", s);
+        if (s < 5400) return fmt::format("{:.0f} min", std::ceil(s / 60));
+        return fmt::format("{:.3g} h", s / 3600);
     };
     return fmt::format(
-        "cells        {} of {} m, {} of them free\n"
+        "cells        {} of {} m, {}{} of them free\n"
         "pieces       {}\n"
         "candidates   about {}, which see {} pieces in all\n"
         "memory       about {:.0f} MB a process\n"
-        "disk         about {:.0f} MB, and {:.0f} MB more while it runs\n"
+        "disk         about {:.1f} MB, and {:.1f} MB more while it runs\n"
         "time         about {} with {} thread{}\n"
+        "tried        {}\n"
         "The job is valid; nothing was written.\n",
-        e.cells, config.field.cell_m, e.free_cells, e.pieces, e.candidates, e.entries, e.memory_mb,
-        e.disk_mb, e.working_mb, span(e.wall_s), threads.count(), threads.count() == 1 ? "" : "s");
+        e.cells, config.field.cell_m, e.free_cells_exact ? "" : "about ", e.free_cells, e.pieces,
+        e.candidates, e.entries, e.memory_mb, e.disk_mb, e.working_mb, span(e.wall_s),
+        threads.count(), threads.count() == 1 ? "" : "s", sample_text(e.sample, config));
 }
 
 }  // namespace vfplan

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "engine/config/config.h"
+#include "engine/job/pipeline.h"
+#include "engine/job/sample.h"
 #include "engine/runtime/parallel.h"
 #include "engine/runtime/progress.h"
 
@@ -13,6 +15,7 @@ namespace vfplan {
 struct Estimate {
     std::int64_t cells = 0;
     std::int64_t free_cells = 0;
+    bool free_cells_exact = true;
     std::int64_t pieces = 0;
     std::int64_t candidates = 0;
     std::int64_t entries = 0;  // of the coverage table
@@ -20,13 +23,14 @@ struct Estimate {
     double disk_mb = 0;        // of the run directory, finished
     double working_mb = 0;     // more while it runs
     double wall_s = 0;
-    bool whole = false;  // the sample was the whole site
+    Sample sample;
 };
 
-// Reads the site and makes the tables of some squares of it, in a folder for temporary files that
-// is gone afterwards; squares with many walls are likelier to be among them. The rest is scaled by
-// walls and cells. Throws as a run would.
-Estimate estimate(const Config& config, const Threads& threads, Progress& progress);
+// Reads the site and makes the tables of a part of it (engine/job/sample.h), in a folder for
+// temporary files that is gone afterwards. Beyond reading the site that takes a few seconds of
+// processor time, whatever the job. Warns of what the machine has not enough of. Throws as a run
+// would, before it begins to work; Stopped within a second or two of a signal.
+Estimate estimate(const Config& config, const JobOptions& options, Progress& progress);
 
 std::string estimate_text(const Estimate& estimate, const Config& config, const Threads& threads);
 

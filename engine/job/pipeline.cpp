@@ -7,6 +7,7 @@
 #include "engine/config/parameters.h"
 #include "engine/job/claim.h"
 #include "engine/job/estimate.h"
+#include "engine/job/needs.h"
 #include "engine/job/result_hash.h"
 #include "engine/job/run_dir.h"
 #include "engine/job/summary.h"
@@ -16,6 +17,7 @@
 #include "io/exports/outputs.h"
 #include "io/files.h"
 #include "io/tables/plan_file.h"
+#include "kernels/coverage.h"
 #include "kernels/error.h"
 
 namespace vfplan {
@@ -28,12 +30,17 @@ void write_json(const std::filesystem::path& file, const Json& json) {
 }
 
 // From a site to its tables, on all ranks: field.h5 and coverage.h5, as far as they are missing.
-void tables_of(const RunDir& dir, const Config& config, const JobKeys& keys, const Threads& threads,
-               const Ranks& ranks, Progress& progress) {
+void tables_of(const RunDir& dir, const Config& config, const JobKeys& keys, bool plan,
+               const Threads& threads, const Ranks& ranks, Progress& progress) {
     ranks.lead([&] {
         if (tables_complete(dir.path(), keys.tables, progress)) return;
         dir.remove_plan();
-        make_site(ground_options(config), dir.path(), keys.tables, threads, progress);
+        const GroundOptions ground = ground_options(config);
+        make_site(ground, dir.path(), keys.tables, threads, progress,
+                  [&](const Site& site, const Layout& layout) {
+                      const auto pieces = cut_into_pieces(site.walls, ground.partition_m).size();
+                      check_memory(ground, layout, pieces, plan, memory_limit());
+                  });
     });
     if (std::filesystem::exists(dir.file("field.h5")) &&
         std::filesystem::exists(dir.file("coverage.h5"))) {
@@ -115,12 +122,12 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
     std::string text;
     if (options.dry_run) {
         ranks.lead(
-            [&] { text = estimate_text(estimate(config, threads, progress), config, threads); });
+            [&] { text = estimate_text(estimate(config, options, progress), config, threads); });
         return text;
     }
     run_in_folder(
         dir, config, keys, options.fresh, ranks,
-        [&] { tables_of(dir, config, keys, threads, ranks, progress); },
+        [&] { tables_of(dir, config, keys, options.plan, threads, ranks, progress); },
         [&] {
             ranks.lead([&] {
                 dir.remove_work();

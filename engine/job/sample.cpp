@@ -2,145 +2,153 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <string>
 #include <vector>
 
+#include "engine/job/outlook.h"
+#include "engine/job/squares.h"
+#include "engine/runtime/parallel.h"
 #include "engine/runtime/progress.h"
-#include "engine/runtime/ranks.h"
+#include "engine/runtime/stop.h"
 #include "engine/tables/site.h"
-#include "engine/tables/tables.h"
-#include "io/tables/coverage_file.h"
-#include "io/temporary_folder.h"
-#include "kernels/index.h"
+#include "kernels/coverage.h"
+#include "kernels/error.h"
 
 namespace vfplan {
 namespace {
 
-constexpr double square_cells = 320;  // side of a square that is tried, at least
 constexpr int squares_tried = 6;
+constexpr int empty_squares_tried = 2;
+constexpr double square_cells = 256;         // along a square's side
+constexpr double whole_cells = 500'000;      // of a site that is tried as a whole
+constexpr std::size_t walls_most = 100'000;  // in and around what is tried
+constexpr double pieces_most = 80'000;       // likewise
+constexpr double usual_spans = 50;           // in a view; more take longer
+constexpr double cpu_most_s = 6;
+constexpr std::int64_t tile_cells = 1024;  // one tile: what lies around would be read for each
 
-// Walls of a site by the square that their middle lies in.
-struct Squares {
-    std::int64_t columns = 0;
-    double side_m = 0;
-    Vec2d origin{0, 0};
-    std::vector<double> weight;  // wall length, m
-
-    // Two ranges wide at least: in less, what lies at the edge would be most of it.
-    Squares(const Site& site, double cell_m, double range_m)
-        : side_m(std::max(square_cells * cell_m, 2 * range_m)) {
-        origin = site.extent.min;
-        const Vec2d size = site.extent.size();
-        columns = static_cast<std::int64_t>(std::ceil(size.x() / side_m));
-        const auto rows = static_cast<std::int64_t>(std::ceil(size.y() / side_m));
-        weight.assign(idx(columns * rows), 0);
-        for (const Wall& w : site.walls) {
-            const Vec2d p = ((w.a + w.b) / 2 - origin) / side_m;
-            const auto x = static_cast<std::int64_t>(p.x());
-            const auto y = static_cast<std::int64_t>(p.y());
-            weight[idx(std::min(y, rows - 1) * columns + std::min(x, columns - 1))] += w.length_m();
-        }
-    }
-    // Systematic sampling: each square as often as its share of walls.
-    std::vector<std::size_t> sample() const {
-        double whole = 0;
-        for (const double w : weight) whole += w;
-        std::vector<std::size_t> out;
-        double before = 0;
-        int taken = 0;
-        for (std::size_t i = 0; i < weight.size(); ++i) {
-            before += weight[i];
-            bool hit = false;
-            while (taken < squares_tried && before >= whole * (taken + 0.5) / squares_tried) {
-                ++taken;
-                hit = true;
-            }
-            if (hit) out.push_back(i);
-        }
-        return out;
-    }
-    Box box(std::size_t square) const {
-        const auto n = static_cast<std::int64_t>(square);
-        const Vec2d lo = origin + side_m * Vec2d(static_cast<double>(n % columns),
-                                                 static_cast<double>(n / columns));
-        return {lo, lo + Vec2d(side_m, side_m)};
-    }
+// The clock has run down.
+struct OutOfTime : Error {
+    OutOfTime() : Error(Exit::stopped, "out of time") {}
 };
 
-// The part of a site in a box, with the walls that are in sight of it.
-Site part_of_site(const Site& site, const Box& box, double range_m) {
-    Site out = site;
-    out.required.clear();  // they may lie elsewhere
-    out.existing.clear();
-    out.extent = {box.min.cwiseMax(site.extent.min), box.max.cwiseMin(site.extent.max)};
-    const Vec2d reach(range_m, range_m);
-    const Box around{out.extent.min - reach, out.extent.max + reach};
-    const auto meets = [&](const Vec2d& lo, const Vec2d& hi) {
-        return lo.x() <= around.max.x() && hi.x() >= around.min.x() && lo.y() <= around.max.y() &&
-               hi.y() >= around.min.y();
-    };
-    std::erase_if(out.walls,
-                  [&](const Wall& w) { return !meets(w.a.cwiseMin(w.b), w.a.cwiseMax(w.b)); });
-    // A piece in the north, south or east of all cells is crossed by no count of theirs.
-    std::erase_if(out.free_border, [&](const Border& piece) {
-        return std::min(piece.a.y(), piece.b.y()) > around.max.y() ||
-               std::max(piece.a.y(), piece.b.y()) < around.min.y() ||
-               std::min(piece.a.x(), piece.b.x()) > around.max.x();
-    });
-    return out;
-}
+class Sampling {
+public:
+    Sampling(const GroundOptions& ground, const TableOptions& tables, const Site& site,
+             const Layout& layout, int threads)
+        : ground_(ground), tables_(tables), site_(site), layout_(layout), threads_(threads, [this] {
+              stop_if_asked();
+              if (Moment::now().cpu_s > deadline_s_) throw OutOfTime();
+          }) {}
 
-double bytes_below(const std::filesystem::path& folder, const std::string& prefix) {
-    double sum = 0;
-    for (const auto& e : std::filesystem::recursive_directory_iterator(folder)) {
-        if (e.is_regular_file() && e.path().filename().string().starts_with(prefix)) {
-            sum += static_cast<double>(e.file_size());
+    Sample run() {
+        deadline_s_ = Moment::now().cpu_s + cpu_most_s;
+        const Outlook outlook = look_around(site_, ground_.range_max_m, threads_);
+        const double ease = std::clamp(usual_spans / std::max(outlook.spans, 1.0), 0.05, 1.0);
+        const double cells = static_cast<double>(layout_.grid.size());
+        const double larger = std::sqrt(std::max(1.0, cells / (whole_cells * ease)));
+        const double largest_m = std::max(ground_.cell_m, outlook.sight_m / 32);
+        if (ground_.cell_m * larger <= largest_m && site_.walls.size() <= walls_most &&
+            pieces_of(site_, ground_) <= pieces_most && try_whole(ground_.cell_m * larger)) {
+            return out_;
         }
+        // Squares of four sights: of less, what lies at the edge would be most.
+        const double cell_m = std::max(ground_.cell_m, outlook.sight_m / 64);
+        double side_m = square_cells * cell_m * std::sqrt(ease);
+        while (!try_squares(cell_m, side_m) && side_m > 8 * cell_m) {
+            side_m /= 3;
+            deadline_s_ = Moment::now().cpu_s + cpu_most_s / 6;
+        }
+        return out_;
     }
-    return sum;
-}
 
-// Makes the tables of a part of the site and adds what they took.
-void try_part(const GroundOptions& ground, const TableOptions& options, const Site& site,
-              const Threads& threads, Sample& sum) {
-    const TemporaryFolder folder("vfplan-estimate");
-    const Ranks alone{Ranks::Alone{}};
-    Progress quiet(true);
-    make_shard_folders(folder.path(), options.tile_cells);
-    const Moment begin = Moment::now();
-    store_site(ground, "estimate", site, threads, folder.path() / "work" / "site.h5");
-    make_tables(options, folder.path(), "estimate", threads, alone, quiet);
-    sum.cpu_s += Moment::now().cpu_s - begin.cpu_s;
-    const CoverageTables tables = read_coverage(folder.path() / "coverage.h5");
-    sum.candidates += static_cast<double>(tables.rows());
-    sum.entries += static_cast<double>(tables.entries());
-    sum.field_bytes += bytes_below(folder.path() / "shards", "field");
-    sum.coverage_bytes += bytes_below(folder.path() / "shards", "coverage");
-    sum.working_bytes += bytes_below(folder.path() / "work", "");
-}
+private:
+    static double pieces_of(const Site& site, const GroundOptions& ground) {
+        return static_cast<double>(cut_into_pieces(site.walls, ground.partition_m).size());
+    }
+
+    Weighed try_site(const Site& part, double cell_m, double weight) const {
+        GroundOptions ground = ground_;
+        TableOptions tables = tables_;
+        ground.cell_m = std::min(cell_m, part.extent.size().minCoeff());
+        ground.tile_cells = tables.tile_cells = tile_cells;
+        const double pieces = pieces_of(part, ground);
+        const double longer = std::max(1.0, pieces / pieces_most);
+        ground.partition_m *= longer;
+        tables.scenes.partition_m *= longer;
+        const double tried = std::max(1.0, pieces_of(part, ground));
+        return {try_part(ground, tables, part, threads_), layout_of(ground, part), weight,
+                pieces / tried};
+    }
+
+    bool try_whole(double cell_m) {
+        std::vector<Weighed> trials;
+        try {
+            trials.push_back(try_site(site_, cell_m, 1));
+        } catch (const OutOfTime&) {
+            out_.cut_short = true;
+            return false;
+        }
+        const auto cells = static_cast<double>(layout_.grid.size());
+        out_.site = scaled_by_walls(trials, 1, cells, layout_, ground_.range_max_m);
+        out_.share = 1;
+        out_.cell_m = cell_m;
+        return true;
+    }
+
+    // False when there was time for none.
+    bool try_squares(double cell_m, double side_m) {
+        constexpr double squares_most = 4e6;
+        const Vec2d size = site_.extent.size();
+        const Squares squares(
+            site_, std::max({side_m, 2 * cell_m, std::sqrt(size.x() * size.y() / squares_most)}));
+        std::vector<Weighed> empty;
+        std::vector<Weighed> built;
+        double hits = 0;
+        double tried_m = 0;
+        const auto cells = static_cast<double>(layout_.grid.size());
+        const double built_cells = cells * squares.share_with_walls();
+        const auto part = [&](std::size_t square) {
+            return part_of_site(site_, squares.box(square), ground_.range_max_m, walls_most);
+        };
+        try {
+            if (built_cells < 0.98 * cells) {
+                for (const auto& t : squares.without_walls(empty_squares_tried)) {
+                    empty.push_back(try_site(part(t.square), cell_m, 1));
+                }
+            }
+            for (const auto& t : squares.by_walls(squares_tried)) {
+                const double walls_m = squares.walls_m(t.square);
+                built.push_back(try_site(part(t.square), cell_m, t.times / walls_m));
+                hits += t.times;
+                tried_m += walls_m;
+            }
+        } catch (const OutOfTime&) {
+            out_.cut_short = true;
+            if (built.empty()) return false;
+        }
+        out_.site = scaled_by_walls(built, squares.all_walls_m() / hits, built_cells, layout_,
+                                    ground_.range_max_m);
+        out_.site += scaled_by_cells(empty, cells - built_cells, layout_, ground_.range_max_m);
+        out_.share = tried_m / squares.all_walls_m();
+        out_.squares = static_cast<int>(built.size() + empty.size());
+        out_.cell_m = cell_m;
+        return true;
+    }
+
+    const GroundOptions& ground_;
+    const TableOptions& tables_;
+    const Site& site_;
+    const Layout& layout_;
+    double deadline_s_ = 0;
+    const Threads threads_;
+    Sample out_;
+};
 
 }  // namespace
 
-Sample try_squares(const GroundOptions& ground, const TableOptions& tables, const Site& site,
-                   const Threads& threads) {
-    const Squares squares(site, ground.cell_m, ground.range_max_m);
-    Sample out;
-    out.whole = squares.weight.size() <= squares_tried;
-    if (out.whole) {
-        try_part(ground, tables, site, threads, out);
-        return out;
-    }
-    double all_m = 0;
-    for (const double w : squares.weight) all_m += w;
-    double tried_m = 0;
-    for (const std::size_t square : squares.sample()) {
-        try_part(ground, tables, part_of_site(site, squares.box(square), ground.range_max_m),
-                 threads, out);
-        tried_m += squares.weight[square];
-    }
-    if (tried_m > 0) out.share = tried_m / all_m;
-    return out;
+Sample try_job(const GroundOptions& ground, const TableOptions& tables, const Site& site,
+               const Layout& layout, int threads) {
+    return Sampling(ground, tables, site, layout, threads).run();
 }
 
 }  // namespace vfplan

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <string>
+#include <utility>
 
 #ifdef __SANITIZE_THREAD__
 #include <sanitizer/tsan_interface.h>
@@ -45,19 +46,23 @@ class Part {
 public:
     using Body = std::function<void(std::int64_t, std::int64_t)>;
 
-    explicit Part(const Body& body) : body_(&body) {}
-    VFPLAN_UNWATCHED Part(const Part& other) : body_(other.body_) {}
+    Part(const Body& body, const std::function<void()>& may_go_on)
+        : body_(&body), may_go_on_(&may_go_on) {}
+    VFPLAN_UNWATCHED Part(const Part& other) : body_(other.body_), may_go_on_(other.may_go_on_) {}
     Part& operator=(const Part&) = delete;
 
     void operator()(const tbb::blocked_range<std::int64_t>& r) const {
         acquire(loop_begun);
         const PartEnds when_left;  // by an exception too
+        if (may_go_on()) may_go_on()();
         body()(r.begin(), r.end());
     }
 
 private:
     VFPLAN_UNWATCHED const Body& body() const { return *body_; }
+    VFPLAN_UNWATCHED const std::function<void()>& may_go_on() const { return *may_go_on_; }
     const Body* body_;
+    const std::function<void()>* may_go_on_;
 };
 
 int slurm_threads() {
@@ -98,7 +103,8 @@ struct Threads::Impl {
     mutable tbb::task_arena arena;
 };
 
-Threads::Threads(int count) : count_(count > 0 ? count : default_threads()) {
+Threads::Threads(int count, std::function<void()> may_go_on)
+    : may_go_on_(std::move(may_go_on)), count_(count > 0 ? count : default_threads()) {
     impl_ = std::make_unique<Impl>(count_);
 }
 
@@ -106,13 +112,17 @@ Threads::~Threads() = default;
 
 void Threads::for_each(std::int64_t n, std::int64_t grain,
                        const std::function<void(std::int64_t, std::int64_t)>& body) const {
-    const Part part(body);
+    const Part part(body, may_go_on_);
     release(loop_begun);
     const LoopEnds when_left;
     impl_->arena.execute([&] {
         tbb::this_task_arena::isolate([&] {
-            tbb::parallel_for(
-                tbb::blocked_range<std::int64_t>(0, n, static_cast<std::size_t>(grain)), part);
+            const tbb::blocked_range<std::int64_t> all(0, n, static_cast<std::size_t>(grain));
+            if (may_go_on_) {
+                tbb::parallel_for(all, part, tbb::simple_partitioner());
+            } else {
+                tbb::parallel_for(all, part);
+            }
         });
     });
 }

@@ -12,7 +12,10 @@ class Threads {
 public:
     // 0: SLURM_CPUS_PER_TASK, else the processors that this process may use, capped by the
     // control group's quota (which TBB does not look at).
-    explicit Threads(int count = 0);
+    explicit Threads(int count = 0) : Threads(count, {}) {}
+    // `may_go_on` is called before every part of every loop, which are then no longer than the
+    // grain, from any thread; what it throws ends the loop.
+    Threads(int count, std::function<void()> may_go_on);
     ~Threads();
     Threads(const Threads&) = delete;
     Threads& operator=(const Threads&) = delete;
@@ -34,6 +37,7 @@ public:
 private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
+    std::function<void()> may_go_on_;
     int count_ = 1;
 };
 

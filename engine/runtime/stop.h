@@ -22,4 +22,14 @@ bool stop_asked();
 // Throws Stopped when a signal has come. Thread-safe.
 void stop_if_asked();
 
+// While it lives, a signal ends the program at once, with the same exit code: for work that leaves
+// nothing behind and asks nobody whether to go on. Throws Stopped when a signal has come already.
+class SignalsEnd {
+public:
+    SignalsEnd();
+    ~SignalsEnd();
+    SignalsEnd(const SignalsEnd&) = delete;
+    SignalsEnd& operator=(const SignalsEnd&) = delete;
+};
+
 }  // namespace vfplan

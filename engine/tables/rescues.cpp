@@ -111,10 +111,15 @@ struct OpenPiece {
     std::int32_t piece;
 };
 
-// Pieces that nobody covers and whose middle lies in the window, patch by patch.
+// Pieces that nobody covers and whose middle lies in the window, patch by patch. What lies beyond
+// the grid by more than rounding, on a part of a site, is another part's to rescue.
 std::vector<OpenPiece> open_pieces(const TableJob& job, const SiteStore& site, const Window& window,
                                    const CoveredPieces& covered) {
     const Layout& layout = job.layout();
+    const Grid& grid = layout.grid;
+    const Vec2d rounding(grid.cell_m, grid.cell_m);
+    const Box near_grid{grid.origin - rounding,
+                        grid.origin + grid.cell_m * Vec2d(grid.nx, grid.ny) + rounding};
     std::vector<OpenPiece> out;
     for (const std::int64_t patch : layout.patches_in(window)) {
         if (!site.has_walls(patch)) continue;
@@ -129,6 +134,7 @@ std::vector<OpenPiece> open_pieces(const TableJob& job, const SiteStore& site, c
                     if (covered[idx(near.first[side][w] + k)]) continue;
                     const Vec2d middle = near.walls[w].at(
                         (piece_begin_m(length, k, n) + piece_begin_m(length, k + 1, n)) / 2);
+                    if (!near_grid.contains(middle)) continue;
                     const std::int64_t cell = layout.cell_at(middle);
                     if (layout.patch_of(cell) != patch) continue;
                     if (!window.contains(layout.grid.ix(cell), layout.grid.iy(cell))) continue;

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/tables/shards.h"
-#include "io/formats/read_features.h"
+#include "engine/tables/standable.h"
 #include "io/tables/site_store.h"
 #include "kernels/coverage.h"
 #include "kernels/error.h"
@@ -21,19 +21,6 @@ namespace vfplan {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::vector<Border> forbidden_border(const GroundOptions& o, const Site& site) {
-    if (o.forbidden.empty()) return {};
-    ReadOptions read;
-    read.crs = site.crs_wkt;  // to where the site is
-    read.unit_m = o.site.unit_m;
-    std::vector<Polygon> polygons;
-    for (Feature& f : read_features(o.forbidden, read).features) {
-        each_point(f, [&](Vec2d& v) { v -= site.origin; });
-        for (Polygon& p : f.polygons) polygons.push_back(std::move(p));
-    }
-    return border_of_union(polygons, o.site.snap_m);
-}
 
 // `given`: the points as the user wrote them, `points`: in the site's frame.
 void check_points(const std::vector<Vec2d>& given, const std::vector<Vec2d>& points,
@@ -98,17 +85,6 @@ Json site_summary(const Site& site) {
               {"slivers", site.counts.slivers}}}};
 }
 
-// Pieces of a border that a band of rows may cross.
-std::vector<Border> pieces_in(const std::vector<Border>& border, double y_min, double y_max) {
-    std::vector<Border> out;
-    for (const Border& piece : border) {
-        if (std::min(piece.a.y(), piece.b.y()) > y_max) continue;
-        if (std::max(piece.a.y(), piece.b.y()) < y_min) continue;
-        out.push_back(piece);
-    }
-    return out;
-}
-
 // Pieces are numbered with 32 bits.
 void check_piece_count(const Site& site, double partition_m) {
     double pieces = 0;
@@ -120,7 +96,7 @@ void check_piece_count(const Site& site, double partition_m) {
     if (pieces <= most) return;
     throw UsageError(
         fmt::format("coverage.partition_m = {}: {:.3g} pieces of wall, of which {:.0g} can be "
-                    "numbered; choose longer ones or crop_m",
+                    "numbered; choose longer ones or site.crop_m",
                     partition_m, pieces, most));
 }
 
@@ -147,58 +123,14 @@ Layout layout_of(const GroundOptions& o, const Site& site) {
     }
     const double cells = std::ceil(size.x() / cell) * std::ceil(size.y() / cell);
     constexpr double most = 1e11;
-    if (cells > most) {
-        throw UsageError(
-            fmt::format("field.cell_m = {}: {:.3g} cells, of which {:.0g} can be numbered; choose "
-                        "larger cells or crop_m",
-                        cell, cells, most));
+    constexpr double most_in_row = 2e9;
+    if (cells > most || size.maxCoeff() / cell > most_in_row) {
+        throw UsageError(fmt::format(
+            "field.cell_m = {}: {:.3g} cells on {:.0f} x {:.0f} m, of which {:.0g} (and "
+            "{:.0g} in a row) can be numbered; choose larger cells or site.crop_m",
+            cell, cells, size.x(), size.y(), most, most_in_row));
     }
     return make_layout(make_grid(site.extent, cell, o.site.snap_m), o.range_max_m, o.tile_cells);
-}
-
-std::vector<std::vector<std::uint8_t>> standable_bits(const GroundOptions& o, const Site& site,
-                                                      const Layout& layout,
-                                                      const Threads& threads) {
-    const std::vector<Border> forbidden = forbidden_border(o, site);
-    std::vector<std::vector<std::uint8_t>> out(idx(layout.patches()));
-    threads.for_each(layout.patch_rows(), 1, [&](std::int64_t from, std::int64_t to) {
-        for (std::int64_t row = from; row < to; ++row) {
-            const std::int64_t first = row * layout.patch_columns();
-            Window band = layout.patch_window(first);
-            band.x_end = layout.grid.nx;
-            const Grid grid = part_of(layout.grid, band);
-            const double y_min = grid.origin.y();
-            const double y_max = y_min + grid.cell_m * grid.ny;
-            Raster<std::uint8_t> free = free_cells(grid, pieces_in(site.free_border, y_min, y_max));
-            const Raster<std::uint8_t> kept_out =
-                free_cells(grid, pieces_in(forbidden, y_min, y_max));
-            std::vector<Wall> near;
-            const double reach = std::max(o.clearance_m, o.cell_m);
-            for (const Wall& w : site.walls) {
-                if (std::max(w.a.y(), w.b.y()) + reach < y_min) continue;
-                if (std::min(w.a.y(), w.b.y()) - reach > y_max) continue;
-                near.push_back(w);
-            }
-            const Raster<std::uint8_t> on_wall = cells_on_walls(grid, near);
-            const Raster<std::uint8_t> too_near = cells_near_walls(grid, near, o.clearance_m);
-            for (std::size_t i = 0; i < free.size(); ++i) {
-                if (kept_out[i] != 0 || on_wall[i] != 0 || too_near[i] != 0) free[i] = 0;
-            }
-            for (std::int64_t p = first; p < first + layout.patch_columns(); ++p) {
-                const Window w = layout.patch_window(p);
-                std::vector<std::uint8_t>& bits = out[idx(p)];
-                bits.assign((idx(w.size()) + 7) / 8, 0);
-                std::size_t i = 0;
-                for (std::int32_t y = 0; y < grid.ny; ++y) {
-                    for (std::int32_t x = w.x_begin; x < w.x_end; ++x, ++i) {
-                        const unsigned bit = free[idx(grid.id(x, y))] != 0 ? 1U << (i % 8) : 0U;
-                        bits[i / 8] = static_cast<std::uint8_t>(bits[i / 8] | bit);
-                    }
-                }
-            }
-        }
-    });
-    return out;
 }
 
 Site read_ground(const GroundOptions& o, const Threads& threads, Progress& progress) {
@@ -224,20 +156,21 @@ Site read_ground(const GroundOptions& o, const Threads& threads, Progress& progr
     return std::move(site);
 }
 
+void check_free_cells(const GroundOptions& o, std::int64_t free_cells) {
+    if (free_cells > 0) return;
+    throw UsageError(fmt::format(
+        "field.cell_m = {}: no cell's centre lies in free space; choose a smaller cell", o.cell_m));
+}
+
 void store_site(const GroundOptions& o, const std::string& key, const Site& site,
-                const Threads& threads, const std::filesystem::path& path) {
+                const Threads& threads, const std::filesystem::path& path, bool may_be_none) {
     const Layout layout = layout_of(o, site);
     const auto bits = standable_bits(o, site, layout, threads);
     SiteFacts facts;
     for (const auto& patch : bits) {
         for (const std::uint8_t byte : patch) facts.free_cells += std::popcount(byte);
     }
-    if (facts.free_cells == 0) {
-        throw UsageError(
-            fmt::format("field.cell_m = {}: no cell's centre lies in free space; "
-                        "choose a smaller cell",
-                        o.cell_m));
-    }
+    if (!may_be_none) check_free_cells(o, facts.free_cells);
     const Pieces pieces = cut_into_pieces(site.walls, o.partition_m);
     facts.origin = site.origin;
     facts.crs_wkt = site.crs_wkt;
@@ -260,10 +193,15 @@ void store_site(const GroundOptions& o, const std::string& key, const Site& site
 }
 
 void make_site(const GroundOptions& options, const std::filesystem::path& dir,
-               const std::string& key, const Threads& threads, Progress& progress) {
-    const std::filesystem::path site = dir / "work" / "site.h5";
-    if (have_shard(site, key, progress)) return;
-    store_site(options, key, read_ground(options, threads, progress), threads, site);
+               const std::string& key, const Threads& threads, Progress& progress,
+               const std::function<void(const Site&, const Layout&)>& may_begin) {
+    const std::filesystem::path file = dir / "work" / "site.h5";
+    if (have_shard(file, key, progress)) return;
+    {
+        const Site site = read_ground(options, threads, progress);
+        may_begin(site, layout_of(options, site));
+        store_site(options, key, site, threads, file);
+    }
     malloc_trim(0);  // of what reading took, nothing is needed any more
 }
 

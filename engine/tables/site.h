@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,10 @@
 namespace vfplan {
 
 // Phase "site": reads and checks the site and writes its store, on the leader alone, unless it is
-// there. Throws as read_ground() and store_site().
+// there. Between the two, `may_begin` may refuse the job. Throws as read_ground() and store_site().
 void make_site(const GroundOptions& options, const std::filesystem::path& dir,
-               const std::string& key, const Threads& threads, Progress& progress);
+               const std::string& key, const Threads& threads, Progress& progress,
+               const std::function<void(const Site&, const Layout&)>& may_begin);
 
 // --- its parts -----------------------------------------------------------------------------------
 
@@ -28,14 +30,13 @@ Site read_ground(const GroundOptions& options, const Threads& threads, Progress&
 // site.
 Layout layout_of(const GroundOptions& options, const Site& site);
 
-// Cells where a station may stand, a bit each, by patch: in free space, not forbidden, no wall
-// nearer than the clearance. Works in bands of patches: memory is a band's.
-std::vector<std::vector<std::uint8_t>> standable_bits(const GroundOptions& options,
-                                                      const Site& site, const Layout& layout,
-                                                      const Threads& threads);
+// Throws UsageError when there is none.
+void check_free_cells(const GroundOptions& options, std::int64_t free_cells);
 
-// Writes the store of a site. Throws UsageError when no cell is free; IoError.
+// Writes the store of a site. Throws UsageError when no cell is free, unless there `may_be_none`;
+// IoError.
 void store_site(const GroundOptions& options, const std::string& key, const Site& site,
-                const Threads& threads, const std::filesystem::path& path);
+                const Threads& threads, const std::filesystem::path& path,
+                bool may_be_none = false);
 
 }  // namespace vfplan

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <sstream>
+#include <vector>
 
 #include "kernels/error.h"
+#include "kernels/stray.h"
 
 namespace vfplan {
 namespace {
@@ -59,11 +61,11 @@ Unit unit_of_dxf(const std::string& head) {
 void check_size(const FeatureSet& set, const Unit& unit, const ReadOptions& options,
                 const std::filesystem::path& file) {
     if (options.kind != SiteKind::indoor || options.unit_m > 0) return;
-    Box box;
+    std::vector<Box> boxes;
     for (const Feature& f : set.features) {
-        if (f.role == Role::ignored) continue;
-        each_point(f, [&](const Vec2d& v) { box.add(v); });
+        if (f.role != Role::ignored) boxes.push_back(bounds(f));
     }
+    const Box box = find_strays(boxes, 0).rest;  // one far off says nothing about the unit
     if (box.empty()) return;
     const double size_m = box.size().maxCoeff();
     constexpr double smallest_m = 2;

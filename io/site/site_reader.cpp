@@ -8,6 +8,7 @@
 #include "io/site/planar.h"
 #include "io/site/site_indoor.h"
 #include "io/site/site_outdoor.h"
+#include "io/site/stray_features.h"
 #include "io/site/subdivision.h"
 #include "kernels/error.h"
 #include "kernels/index.h"
@@ -170,6 +171,9 @@ SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::str
     const bool no_features = set.features.empty();
     if (no_features) {
         throw InputError(fmt::format("{}: {}", name, problem_without_walls(no_features, options)));
+    }
+    if (std::string stray = stray_warning(set, options); !stray.empty()) {
+        out.warnings.push_back(std::move(stray));
     }
     settle_invalid(set, options, name, site.counts);
     site.origin = {std::floor(box.min.x()), std::floor(box.min.y())};

@@ -35,6 +35,22 @@ private:
     std::optional<std::string> old_;
 };
 
+// Every part asks whether it may go on, and is short enough that it asks often.
+TEST(Threads, MayBeToldToEnd) {
+    std::atomic<int> asked = 0;
+    std::atomic<int> done = 0;
+    const Threads threads(2, [&] {
+        if (++asked > 10) throw std::runtime_error("enough");
+    });
+    EXPECT_THROW(threads.for_each(10000, 8,
+                                  [&](std::int64_t from, std::int64_t to) {
+                                      EXPECT_LE(to - from, 8);
+                                      done += static_cast<int>(to - from);
+                                  }),
+                 std::runtime_error);
+    EXPECT_LE(done, 80);
+}
+
 TEST(Threads, EveryIndexIsVisitedOnce) {
     for (const int count : {1, 2, 4}) {
         const Threads threads(count);

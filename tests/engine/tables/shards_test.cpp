@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "engine/tables/site.h"
+#include "engine/tables/standable.h"
 #include "io/files.h"
 #include "io/h5_reader.h"
 #include "kernels/error.h"

@@ -232,5 +232,51 @@ TEST(Reading, PlacesInDegreesAreUnderstood) {
     EXPECT_EQ(read_site(file.path(), options).points[0], part.points[0]);
 }
 
+// --- strays --------------------------------------------------------------------------------------
+
+TEST(Strays, AreNamedWithTheCropThatLeavesThemOut) {
+    FeatureSet set;
+    for (const double x : {0, 30, 60}) {
+        test::add_polygon(set, Role::building, test::box_ring(x, 0, x + 10, 10));
+    }
+    test::add_polygon(set, Role::building, test::box_ring(5e4, 7e4, 5e4 + 10, 7e4 + 10));
+    set.features.back().id = "w77";
+    SiteOptions options;
+    const SiteResult r = build_site(set, options, "town");
+    ASSERT_EQ(r.warnings.size(), 1U);
+    expect_words(r.warnings[0], {"feature 4, id w77 at (50005.00, 70005.00)", "50 km x 70 km",
+                                 "70 m x 10 m", "site.crop_m = [0, 0, 70, 10]"});
+    options.crop_m = {0, 0, 70, 10};
+    const SiteResult without = build_site(set, options, "town");
+    EXPECT_TRUE(without.warnings.empty());
+    EXPECT_EQ(without.site.buildings, 3);
+}
+
+TEST(Strays, RoomsAndLabelsMakeNoSiteLarger) {
+    FeatureSet set;
+    test::add_line(set, Role::wall, {{0, 0}, {5, 0}, {5, 4}, {0, 4}, {0, 0}});
+    test::add_polygon(set, Role::room, test::box_ring(0, 0, 5, 4));
+    test::add_line(set, Role::ignored, {{9000, 0}, {9001, 0}});
+    test::add_polygon(set, Role::room, test::box_ring(9000, 0, 9005, 4));
+    SiteOptions options;
+    options.kind = SiteKind::indoor;
+    EXPECT_TRUE(build_site(set, options, "flat").warnings.empty());
+}
+
+// A floor plan of 5 m with a stroke 3 km off is no plan in inches.
+TEST(Strays, SayNothingOfTheUnit) {
+    const auto line = [](const std::string& coordinates) {
+        return R"({"type":"Feature","properties":{"class":"wall"},"geometry":{"type":"LineString",)"
+               R"("coordinates":[)" +
+               coordinates + "]}}";
+    };
+    const TemporaryFile file("stray.geojson",
+                             geojson({line("[0,0],[5,0]"), line("[5,0],[5,4]"), line("[5,4],[0,4]"),
+                                      line("[0,4],[0,0]"), line("[3000,3000],[3000.1,3000]")}));
+    SiteOptions options;
+    options.kind = SiteKind::indoor;
+    EXPECT_EQ(read_features(file.path(), options).features.size(), 5U);
+}
+
 }  // namespace
 }  // namespace vfplan
