@@ -130,8 +130,10 @@ TEST_F(BadInput, SiteFile) {
     expect(4, {"nowhere.geojson", "no such file", "site.input"},
            "[site]\ninput = \"nowhere.geojson\"\n", "");
     expect(3, {"site.geojson", "empty"}, good_job, "");
-    expect(3, {"site.geojson", "not vector data", "GeoJSON"}, good_job, "Dear reader,\n");
-    expect(3, {"site.geojson", "GeoJSON"}, good_job, R"({"type":"FeatureCollection","feat)");
+    expect(3, {"site.geojson", "not a site that can be read", "GeoJSON"}, good_job,
+           "Dear reader,\n");
+    expect(3, {"site.geojson:1:", "ends in the middle"}, good_job,
+           R"({"type":"FeatureCollection","feat)");
     expect(3, {"site.geojson"}, good_job, collection({}));
     const std::string folder = scratch / "folder";
     std::filesystem::create_directory(folder);

@@ -165,11 +165,12 @@ TEST(Reading, AUnitThatCannotBeIsAsked) {
     expect_words(message_of<InputError>([&] { read_features(silent.path(), indoor()); }),
                  {"8000 x 6000 m", "millimetres (8 x 6 m)", "centimetres (80 x 60 m)",
                   "site.unit_m = 0.001"});
-    for (const double per_m : {100.0, 1 / 0.0254}) {
-        const TemporaryFile other("other.dxf", dxf(per_m, -1));
-        expect_words(message_of<InputError>([&] { read_features(other.path(), indoor()); }),
-                     {"centimetres", "inches", "0.0254"});
-    }
+    const TemporaryFile centimetres("cm.dxf", dxf(100, -1));
+    expect_words(message_of<InputError>([&] { read_features(centimetres.path(), indoor()); }),
+                 {"800 x 600 m", "centimetres (8 x 6 m)", "0.01"});
+    const TemporaryFile inches("inches.dxf", dxf(1 / 0.0254, -1));
+    expect_words(message_of<InputError>([&] { read_features(inches.path(), indoor()); }),
+                 {"315 x 236 m", "inches (8 x 6 m)", "0.0254"});
     const TemporaryFile wrong("wrong.dxf", dxf(1 / 0.0254, 4));
     expect_words(message_of<InputError>([&] { read_features(wrong.path(), indoor()); }),
                  {"$INSUNITS = 4", "inches", "site.unit_m = 0.0254"});
