@@ -58,8 +58,27 @@ std::vector<Option> options_for(const TableJob& job, const Scene& scene, const F
                                                     static_cast<double>(grid.ny - 1)));
     };
     std::vector<Option> out;
-    for (std::int32_t iy = row(box.min.y()); iy <= row(box.max.y()); ++iy) {
-        for (std::int32_t ix = column(box.min.x()); ix <= column(box.max.x()); ++ix) {
+    const std::int32_t first_row = row(box.min.y());
+    const std::int32_t first_column = column(box.min.x());
+    const std::int32_t last_column = column(box.max.x());
+    std::vector<Sight::Stretches> in_sight(idx(row(box.max.y()) - first_row + 1));
+    for (const Sight& s : sights) {
+        s.add_rows(scanner.range_max_m, corner.y() + (first_row + 0.5) * grid.cell_m, grid.cell_m,
+                   in_sight);
+    }
+    for (std::int32_t iy = first_row; iy <= row(box.max.y()); ++iy) {
+        auto& stretches = in_sight[idx(iy - first_row)];
+        std::sort(stretches.begin(), stretches.end());
+        auto stretch = stretches.begin();
+        for (std::int32_t ix = first_column; ix <= last_column; ++ix) {
+            const double x = corner.x() + (ix + 0.5) * grid.cell_m;
+            // On to the next stretch that does not end before this cell.
+            while (stretch != stretches.end() && stretch->second < x - grid.cell_m) ++stretch;
+            if (stretch == stretches.end()) break;
+            if (stretch->first > x + grid.cell_m) {
+                ix = std::max(ix, column(stretch->first) - 1);
+                continue;
+            }
             if (!field.inside(ix, iy)) continue;  // beyond range, but for rounding
             const std::size_t i = field.index(ix, iy);
             if (std::isnan(field.vf_rad[i])) continue;
