@@ -112,7 +112,11 @@ struct OverlapRule {
     OverlapRatio ratio = OverlapRatio::mean_len;
     double threshold = 0.3;
 
-    bool enough(double overlap) const { return overlap > 0 && overlap >= threshold; }
+    // A tie is enough, though sums of lengths round it off by a bit or two.
+    bool enough(double overlap) const {
+        constexpr double rounding = 1e-12;
+        return overlap > 0 && overlap >= threshold - rounding;
+    }
 };
 
 }  // namespace vfplan

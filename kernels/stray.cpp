@@ -118,8 +118,15 @@ Strays find_strays(const std::vector<Box>& boxes, double margin) {
         covered = best_area;
     }
     if (whole <= times_least * covered) return out;
-    out.boxes = without(all, members);
-    out.rest = around(boxes, members);
+    const Box rest = around(boxes, members);
+    const Members gone = without(all, members);
+    if (std::any_of(gone.begin(), gone.end(), [&](std::size_t i) {
+            return boxes[i].contains(rest.min) && boxes[i].contains(rest.max);
+        })) {
+        return out;
+    }
+    out.boxes = gone;
+    out.rest = rest;
     out.times = whole / covered;
     return out;
 }

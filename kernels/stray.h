@@ -22,7 +22,8 @@ struct Strays {
 //  (1) empty boxes are no strays and cover nothing
 //  (2) strays are one box, or at most a tenth of all
 //  (3) of two boxes alone, the second is the stray
-//  (4) without the strays, the area is less than a tenth; `margin` belongs to it on every side
+//  (4) what surrounds all the rest is its outline, no stray
+//  (5) without the strays, the area is less than a tenth; `margin` belongs to it on every side
 Strays find_strays(const std::vector<Box>& boxes, double margin);
 
 }  // namespace vfplan

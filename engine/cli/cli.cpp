@@ -93,6 +93,7 @@ std::filesystem::path out_of(const Shared& s) {
 // A job file, or a site that is planned with the preset that fits.
 Config job_or_site(const Shared& s) {
     if (std::filesystem::path(s.job).extension() == ".toml") return read_config(s.job, s.sets);
+    const SignalsEnd at_once;  // nothing is written yet
     return bare_site(s.job, s.sets).config;
 }
 
@@ -171,9 +172,13 @@ int verify(const Shared& s) {
 int look_at_site(const Shared& s) {
     const std::filesystem::path picture =
         s.out.empty() ? std::filesystem::path(s.job).stem().string() + ".site.png" : s.out;
-    const bool job = std::filesystem::path(s.job).extension() == ".toml";
-    BareSite site = job ? BareSite{read_config(s.job, s.sets), {}} : bare_site(s.job, s.sets);
-    const Inspection found = inspect(site.config, s.threads, std::move(site.features));
+    const auto look = [&] {
+        const SignalsEnd at_once;  // nothing is written yet
+        const bool job = std::filesystem::path(s.job).extension() == ".toml";
+        BareSite site = job ? BareSite{read_config(s.job, s.sets), {}} : bare_site(s.job, s.sets);
+        return inspect(site.config, s.threads, std::move(site.features));
+    };
+    const Inspection found = look();
     write_text(picture, found.picture);
     fmt::print("{}picture    {}\n", found.text, picture.string());
     return 0;

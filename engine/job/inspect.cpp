@@ -113,7 +113,11 @@ BareSite bare_site(const std::filesystem::path& file, const std::vector<std::str
         set = read(job("", crs));
     }
     if (given("preset")) return {job("", crs), std::move(set)};
-    const bool plan = set.how.format == "DXF" ||
+    // What is always a plan, whatever is in it.
+    constexpr std::array plans = {"DXF",          "Sweet Home 3D",         "HouseExpo",
+                                  "Structured3D", "office and school XML", "AGPLIB",
+                                  "ROS map"};
+    const bool plan = std::find(plans.begin(), plans.end(), set.how.format) != plans.end() ||
                       std::any_of(set.features.begin(), set.features.end(), [](const Feature& f) {
                           constexpr std::array roles = {Role::room, Role::door, Role::window,
                                                         Role::outline, Role::opening};

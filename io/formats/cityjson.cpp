@@ -167,7 +167,12 @@ Drawing read_cityjson(const JsonAt& root, const ReadOptions& options) {
     out.set.how.format =
         fmt::format("CityJSON {}", root.has("version") ? root["version"].text() : "");
     if (root.has("metadata") && root["metadata"].has("referenceSystem")) {
-        out.crs.wkt = wkt_of_code(epsg_of(root["metadata"]["referenceSystem"].text()));
+        const std::string said = root["metadata"]["referenceSystem"].text();
+        out.crs.wkt = wkt_of_code(epsg_of(said));
+        if (out.crs.wkt.empty()) {
+            out.set.warnings.push_back(
+                fmt::format("no coordinate reference system is known by '{:.80}'", said));
+        }
     }
     const JsonAt objects = root["CityObjects"];
     std::int64_t number = 0;

@@ -143,6 +143,7 @@ std::vector<std::filesystem::path> companions(const std::filesystem::path& file)
 }
 
 FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& options) {
+    const QuietGdal quiet;
     const PackedFile packed = look_into(file);
     std::optional<Drawing> ours = read_ours(packed, file, options);
     if (ours && !options.where.empty()) {
@@ -165,8 +166,13 @@ FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& o
                    : !drawing.unit.said.empty() ? drawing.unit.said
                                                 : "none said, taken for metres";
     check_coordinates(set, file);
-    const QuietGdal quiet;
     settle_crs(set, drawing.crs, options, file);
+    if (drawing.unit.said.empty() && options.unit_m <= 0 && !set.crs_wkt.empty()) {
+        const bool projected = set.from_degrees || (!options.crs.empty() && drawing.crs.wkt != "");
+        set.how.unit = set.from_degrees ? "degrees, projected to metres"
+                       : projected      ? "as the file's CRS says, projected to metres"
+                                        : "metres, by the CRS";
+    }
     check_size(set, drawing.unit, options, file);
     return std::move(drawing.set);
 }

@@ -111,6 +111,7 @@ private:
         w.at_start = node.attribute("wallAtStart").value();
         w.at_end = node.attribute("wallAtEnd").value();
         w.thickness = document_.number(node, "thickness");
+        if (!(w.thickness > 0)) document_.fail(node, "its thickness is not above 0");
         const Vec2d a(document_.number(node, "xStart"), -document_.number(node, "yStart"));
         const Vec2d b(document_.number(node, "xEnd"), -document_.number(node, "yEnd"));
         if (a == b) return;

@@ -82,6 +82,8 @@ struct Told {
 // OSM: only what is tagged counts, whatever relation it hangs in.
 Told told_by_osm(OGRFeatureH feature, const ReadOptions& options) {
     const std::string building = text_of(feature, "building");
+    const std::string boundary = text_of(feature, "boundary");
+    if (!boundary.empty()) return {std::nullopt, true, "boundary", "tag"};
     if (!building.empty() && building != "no") return {Role::building, false, "building", "tag"};
     if (options.osm_parts &&
         text_of(feature, "other_tags").find("\"building:part\"=>") != std::string::npos) {
@@ -195,11 +197,23 @@ void read_layer(OGRLayerH layer, const std::string& driver, const ReadOptions& o
     RoleTally tally;
     if (!options.where.empty() &&
         OGR_L_SetAttributeFilter(layer, options.where.c_str()) != OGRERR_NONE) {
-        throw UsageError(fmt::format("site.where = '{}': {}; {} has the fields it can ask for",
-                                     options.where, QuietGdal::last(), file.string()));
+        std::string fields;
+        OGRFeatureDefnH defn = OGR_L_GetLayerDefn(layer);
+        for (int i = 0; i < OGR_FD_GetFieldCount(defn); ++i) {
+            fields +=
+                (i > 0 ? ", " : "") + std::string(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(defn, i)));
+        }
+        std::string why = QuietGdal::last();
+        if (!why.empty() && why.back() == '.') why.pop_back();
+        throw UsageError(
+            fmt::format("site.where = \"{}\": {}; {} has the fields {} (texts stand in "
+                        "single quotes)",
+                        options.where, why, file.string(), fields));
     }
     OGR_L_ResetReading(layer);
     std::int64_t number = 0;
+    std::int64_t lost = 0;  // told to be something of ours, but without a shape
+    std::string lost_text;
     while (FeaturePtr f{OGR_L_GetNextFeature(layer)}) {
         Feature feature;
         feature.number = ++number;
@@ -213,7 +227,12 @@ void read_layer(OGRLayerH layer, const std::string& driver, const ReadOptions& o
         }
         const Told what = driver == "OSM" ? told_by_osm(f.get(), options)
                                           : told_by_words(f.get(), OGR_L_GetName(layer), options);
-        if (what.skip || (feature.polygons.empty() && feature.lines.empty()) ||
+        const bool shapeless = feature.polygons.empty() && feature.lines.empty();
+        if (shapeless && what.role && !what.skip && what.role != Role::ignored) {
+            ++lost;
+            if (lost <= 5) lost_text += fmt::format("{}{}", lost > 1 ? ", " : "", feature.number);
+        }
+        if (what.skip || shapeless ||
             (driver == "DXF" && !options.layer.empty() && !on_dxf_layer(f.get(), options.layer))) {
             tally.count(what.text, {}, what.why);
             continue;
@@ -224,6 +243,12 @@ void read_layer(OGRLayerH layer, const std::string& driver, const ReadOptions& o
         out.features.push_back(std::move(feature));
     }
     tally.add_to(out, OGR_L_GetName(layer));
+    if (lost > 0) {
+        out.warnings.push_back(fmt::format(
+            "{} features have no line or polygon that can be read and are left out (number {}{} of "
+            "layer {}); are their coordinates whole?",
+            lost, lost_text, lost > 5 ? ", ..." : "", OGR_L_GetName(layer)));
+    }
 }
 
 // A drawing with a layer of walls has furniture, fixtures and text on its other layers.
@@ -279,9 +304,12 @@ Drawing read_vector(const PackedFile& packed, const std::filesystem::path& file,
                     const ReadOptions& options) {
     use_gdal();
     const QuietGdal quiet;
-    const auto opened = [](const std::string& name) {
-        return Dataset(
-            GDALOpenEx(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
+    // Reading GML would leave a file beside it.
+    const bool gml = packed.head.find("opengis.net/gml") != std::string::npos;
+    const std::array<const char*, 2> no_files = {"WRITE_GFS=NO", nullptr};
+    const auto opened = [&](const std::string& name) {
+        return Dataset(GDALOpenEx(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr,
+                                  gml ? no_files.data() : nullptr, nullptr));
     };
     std::unique_ptr<FileInMemory> changed;  // lives longer than the set
     Dataset set = opened(packed.name);

@@ -18,7 +18,8 @@ public:
         std::map<double, double> area_at;  // by the width from which on it is inside
         double all_m2 = 0;
         for (std::int32_t t = 0; idx(t) < n_; ++t) {
-            if (named(t)) return {};
+            constexpr Kinds said = bit(outline_area) | bit(room_area);
+            if ((s_.kinds[idx(t)] & said) != 0) return {};
             if (taken(t) || widest[idx(t)] > up_to_m) continue;
             area_at[widest[idx(t)]] += triangle_m2(t);
             all_m2 += triangle_m2(t);
@@ -58,7 +59,7 @@ private:
             if (width < widest[idx(t)]) continue;
             for (std::size_t i = 0; i < 3; ++i) {
                 const std::int32_t to = over(t, i);
-                if (to < 0 || is_shut(t, i) || taken(to)) continue;
+                if (to < 0 || is_shut(t, i) || taken(to) || named(to)) continue;
                 const double by = std::min(width, width_m(t, i));
                 if (by <= widest[idx(to)]) continue;
                 widest[idx(to)] = by;

@@ -129,6 +129,20 @@ std::string problem_without_walls(bool no_features, const SiteOptions& options) 
                  "this is a town set site.kind = \"outdoor\"";
 }
 
+// What to do about walls that enclose nothing.
+std::string wider_text(const FeaturesByRole& in, const SiteOptions& options) {
+    const double up_to_m = 5 * options.max_opening_m;
+    std::string text = fmt::format("give rooms or an outline, or raise site.max_opening_m, now {}",
+                                   options.max_opening_m);
+    std::string more;
+    for (const OpeningStep& s : indoor_opening_steps(in, options, up_to_m)) {
+        if (s.opening_m <= options.max_opening_m || s.inside_m2 < options.min_room_m2) continue;
+        more += fmt::format("{}{:.2f} m: {:.0f} m2", more.empty() ? "" : ", ", s.opening_m + 0.01,
+                            s.inside_m2);
+    }
+    return more.empty() ? text : text + " (inside would be with " + more + ")";
+}
+
 }  // namespace
 
 std::vector<Border> border_of_union(const std::vector<Polygon>& polygons, double snap_m) {
@@ -199,11 +213,13 @@ SiteResult build_site(FeatureSet set, const SiteOptions& options, const std::str
         throw InputError(fmt::format("{}: {}", name, problem_without_walls(no_features, options)));
     }
     if (site.free_border.empty()) {
-        throw InputError(fmt::format(
-            "{}: nowhere in it can a station stand: the walls enclose no space of {} m2; give "
-            "rooms or an outline, let site.max_opening_m = {} reach over wider gaps "
-            "in the walls, or check site.unit_m",
-            name, options.min_room_m2, options.max_opening_m));
+        throw InputError(
+            fmt::format("{}: nowhere in it can a station stand: no space of site.min_room_m2 = {} "
+                        "is inside; {}, "
+                        "or check site.unit_m",
+                        name, options.min_room_m2,
+                        options.kind == SiteKind::outdoor ? "check the buildings"
+                                                          : wider_text(sorted, options)));
     }
     return out;
 }

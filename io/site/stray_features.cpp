@@ -55,7 +55,9 @@ std::string stray_warning(const FeatureSet& set, const SiteOptions& options) {
     }
     const double margin = options.kind == SiteKind::outdoor ? options.margin_m : 0;
     const Strays strays = find_strays(boxes, margin);
-    if (strays.boxes.empty()) return "";
+    // On a small site the ground between costs nothing.
+    constexpr double far_m = 500;
+    if (strays.boxes.empty() || strays.whole.size().maxCoeff() < far_m) return "";
     const bool one = strays.boxes.size() == 1;
     std::string text = one ? "" : fmt::format("{} features far off: ", strays.boxes.size());
     for (std::size_t k = 0; k < std::min(named_most, strays.boxes.size()); ++k) {
