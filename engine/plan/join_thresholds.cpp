@@ -72,7 +72,7 @@ std::vector<Neighbours> neighbours(const PlanInput& in, const std::vector<std::i
             [&](std::int32_t n, const SeenJointly& joint) {
                 const SeenTotal& of_c = totals[idx(c)];
                 const SeenTotal& of_n = totals[idx(n)];
-                if (overlap(OverlapRatio::min_len, of_c, of_n, joint) >= rule.threshold) {
+                if (rule.enough(overlap(OverlapRatio::min_len, of_c, of_n, joint))) {
                     by_min_len.merge(component[idx(c)], component[idx(n)]);
                 }
                 const double o = overlap(rule.ratio, of_c, of_n, joint);

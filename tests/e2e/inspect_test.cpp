@@ -1,4 +1,5 @@
 // Looking at a site before anything is computed, and planning one without a job file.
+#include <csignal>
 #include <fstream>
 
 #include "program.h"
@@ -51,6 +52,20 @@ TEST(Inspect, APathNeedNotBeUtf8) {
     vfplan_expect(0, run);
     vfplan_expect(0, run);  // goes on where it ended
     vfplan_expect(0, {"verify", folder + "/out"});
+}
+
+// Reading a county takes seconds; a signal is heard all the same, and leaves no picture.
+TEST(Inspect, ASignalEndsIt) {
+    VFPLAN_NEED_DATA("city_allegheny/allegheny_north.geojson.gz");
+    const Scratch scratch;
+    const std::string picture = scratch / "county.png";
+    for (const int signal : {SIGTERM, SIGINT}) {
+        const Output o = vfplan_signalled(
+            signal, 1,
+            {"inspect", data_file("city_allegheny/allegheny_north.geojson.gz"), "--out", picture});
+        EXPECT_EQ(o.code, 75) << o.out << o.err;
+        EXPECT_FALSE(std::filesystem::exists(picture));
+    }
 }
 
 }  // namespace

@@ -185,5 +185,15 @@ TEST(Overlap, MeanAndUnionLengthGiveOneGraphAtConvertedThresholds) {
     }
 }
 
+// Sums of lengths that are half of each other on paper.
+TEST(OverlapRule, ATieIsEnough) {
+    const OverlapRule rule{OverlapRatio::mean_len, 0.5};
+    EXPECT_TRUE(rule.enough(0.5));
+    EXPECT_TRUE(rule.enough(0.4999999999999999));
+    EXPECT_FALSE(rule.enough(0.499999999));
+    const OverlapRule none{OverlapRatio::mean_len, 0};
+    EXPECT_FALSE(none.enough(0));
+}
+
 }  // namespace
 }  // namespace vfplan

@@ -183,7 +183,7 @@ TEST(Graph, OverlapGraphIsThatOfAllPairsOnAnyNumberOfThreads) {
             for (std::size_t a = 0; a < own.size(); ++a) {
                 for (std::size_t b = a + 1; b < std::min(own.size(), a + 120); ++b) {
                     const double o = overlap(f.ratio, own[a], own[b]);
-                    if (o <= 0 || o < threshold) continue;
+                    if (o <= 0 || o < threshold - 1e-12) continue;
                     pairs.push_back(
                         {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), o});
                 }
