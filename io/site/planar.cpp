@@ -145,10 +145,15 @@ Geometry united(const std::vector<Polygon>& polygons, double snap_m) {
     for (const Polygon& p : polygons) {
         if (p.outer.size() < 3) continue;
         Geometry g = polygon(p);
-        if (GEOSisValid_r(context(), g.get()) != 1) {
-            g = checked(GEOSMakeValid_r(context(), g.get()), "a repair");
+        if (GEOSisValid_r(context(), g.get()) == 1) {
+            parts.push_back(g.release());
+            continue;
         }
-        parts.push_back(g.release());
+        // A ring that goes out and back along a line leaves that, which surrounds nothing.
+        g = checked(GEOSMakeValid_r(context(), g.get()), "a repair");
+        each_part(g.get(), GEOS_POLYGON, [&](const GEOSGeometry* part) {
+            parts.push_back(GEOSGeom_clone_r(context(), part));
+        });
     }
     const Geometry all = collection(GEOS_GEOMETRYCOLLECTION, std::move(parts));
     return checked(snap_m > 0 ? GEOSUnaryUnionPrec_r(context(), all.get(), snap_m)

@@ -79,5 +79,24 @@ TEST_F(RereadTest, AFaceIntoASolidIsSeen) {
     }
 }
 
+// A ring that goes 12 m out and back along a line: that is no wall to either reading.
+TEST(Reread, ASpikeIsNoWall) {
+    const test::TemporaryFile file("spike.geojson",
+                                   R"({"type":"FeatureCollection","features":[
+{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[0,0],[10,0],[10,8],[22,8],[10,8],[0,8],[0,0]]]}}]})");
+    Config config;
+    config.site.input = file.path();
+    config.site.invalid = InvalidPolygons::repair;
+    Site site = read_site(file.path(), ground_options(config).site).site;
+    CoverageTables tables;
+    tables.origin = site.origin;
+    tables.summary = R"({"site":{"area_m2":80.0}})";
+    tables.walls = std::move(site.walls);
+    const Reread r = reread(config, tables, nullptr);
+    EXPECT_TRUE(r.good) << r.text[0];
+    EXPECT_NE(r.text[0].find("36.00 m of walls, 36.00 m in the tables"), std::string::npos)
+        << r.text[0];
+}
+
 }  // namespace
 }  // namespace vfplan
