@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <string_view>
 
 #include "io/features/role_tally.h"
-#include "io/formats/json_document.h"
+#include "io/formats/text.h"
 #include "kernels/error.h"
 
 namespace vfplan {
@@ -29,12 +28,11 @@ public:
     }
     std::size_t count(const char* of_what) {
         const std::string_view word = next(of_what);
-        std::size_t n = 0;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), n);
-        if (error != std::errc() || end != word.data() + word.size()) {
+        const auto n = number_in<std::size_t>(word);
+        if (!n) {
             fail(fmt::format("the number of {} is expected, not '{}'", of_what, shortened(word)));
         }
-        return n;
+        return *n;
     }
     double fraction() {
         const std::string_view word = next("coordinates");
@@ -74,12 +72,9 @@ private:
             return std::isdigit(c) != 0 || c == '-';
         });
         const std::string_view kept = whole ? word.substr(0, enough) : word;
-        double value = 0;
-        const auto [end, error] = std::from_chars(kept.data(), kept.data() + kept.size(), value);
-        if (error != std::errc() || end != kept.data() + kept.size()) {
-            fail(fmt::format("'{}' is no number", shortened(word)));
-        }
-        return {value, static_cast<int>(word.size() - kept.size())};
+        const auto value = number_in<double>(kept);
+        if (!value) fail(fmt::format("'{}' is no number", shortened(word)));
+        return {*value, static_cast<int>(word.size() - kept.size())};
     }
     static std::string_view shortened(std::string_view word) { return word.substr(0, 40); }
 

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
 #include <cstdlib>
 #include <string_view>
 #include <unsupported/Eigen/Splines>
 #include <vector>
 
+#include "io/formats/text.h"
 #include "kernels/error.h"
 #include "kernels/vec.h"
 
@@ -108,13 +107,11 @@ struct Entity {
 
 bool in_binary(const std::string& dxf) { return dxf.rfind("AutoCAD Binary DXF", 0) == 0; }
 
+// As AutoCAD writes numbers, with a sign or without.
 template <class Number>
 bool is_number(std::string_view text) {
-    Number value{};
     if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size() &&
-           std::isfinite(static_cast<double>(value));
+    return number_in<Number>(text).has_value();
 }
 
 }  // namespace

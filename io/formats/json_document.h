@@ -9,9 +9,6 @@
 
 namespace vfplan {
 
-// Line and column of a byte, from 1: "12:5".
-std::string place_in(const std::string& text, std::size_t byte);
-
 // Throws InputError with line and column.
 nlohmann::json parse_json(const std::string& text, const std::filesystem::path& file);
 

@@ -3,24 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <string>
 #include <string_view>
 
+#include "io/formats/text.h"
 #include "kernels/error.h"
 
 namespace vfplan {
-namespace {
-
-bool is_number(std::string_view text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-}
-
-}  // namespace
-
 void check_osm(const PackedFile& packed, const std::filesystem::path& file) {
     constexpr std::size_t longest = 64;  // of an attribute with a coordinate
     std::string text;                    // what was not looked at yet
@@ -36,7 +25,7 @@ void check_osm(const PackedFile& packed, const std::filesystem::path& file) {
             const char quote = rest[5];
             if (quote != '"' && quote != '\'') continue;
             const std::string_view value = rest.substr(6, rest.find(quote, 6) - 6);
-            if (is_number(value)) continue;
+            if (number_in<double>(value)) continue;
             line += std::count(text.begin() + static_cast<std::ptrdiff_t>(counted),
                                text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
             throw InputError(

@@ -32,36 +32,6 @@ bool lies_in(const Ring& inner, const Ring& outer) {
     return 2 * in > inner.size();
 }
 
-// Closed ways along edges.
-std::vector<Ring> rings_along(const std::set<std::pair<std::size_t, std::size_t>>& edges,
-                              const std::vector<Vec2d>& places) {
-    std::map<std::size_t, std::vector<std::size_t>> next;
-    for (const auto& [a, b] : edges) {
-        next[a].push_back(b);
-        next[b].push_back(a);
-    }
-    const auto take = [&](std::size_t from, std::size_t to) {
-        auto& ways = next[from];
-        ways.erase(std::find(ways.begin(), ways.end(), to));
-        if (ways.empty()) next.erase(from);
-    };
-    std::vector<Ring> out;
-    while (!next.empty()) {
-        const std::size_t first = next.begin()->first;
-        Ring ring;
-        std::size_t at = first;
-        do {
-            ring.push_back(places[at]);
-            const std::size_t to = next.at(at).back();
-            take(at, to);
-            take(to, at);
-            at = to;
-        } while (at != first);
-        if (ring.size() > 2) out.push_back(std::move(ring));
-    }
-    return out;
-}
-
 }  // namespace
 
 std::vector<Polygon> polygons_of(const std::vector<Ring>& rings) {
@@ -99,37 +69,69 @@ std::vector<Polygon> polygons_of(const std::vector<Ring>& rings) {
     return out;
 }
 
+std::optional<std::vector<Ring>> rings_along(const std::vector<CornerPair>& edges,
+                                             const std::vector<Vec2d>& places) {
+    std::map<std::size_t, std::vector<std::size_t>> next;
+    for (const auto& [a, b] : edges) {
+        next[a].push_back(b);
+        next[b].push_back(a);
+    }
+    const auto take = [&](std::size_t from, std::size_t to) {
+        auto& ways = next[from];
+        ways.erase(std::find(ways.begin(), ways.end(), to));
+        if (ways.empty()) next.erase(from);
+    };
+    std::vector<Ring> out;
+    while (!next.empty()) {
+        const std::size_t first = next.begin()->first;
+        Ring ring;
+        std::size_t at = first;
+        do {
+            ring.push_back(places[at]);
+            const auto ways = next.find(at);
+            if (ways == next.end()) return {};
+            const std::size_t to = ways->second.back();
+            take(at, to);
+            take(to, at);
+            at = to;
+        } while (at != first);
+        if (ring.size() > 2) out.push_back(std::move(ring));
+    }
+    return out;
+}
+
 std::vector<Polygon> united(const std::vector<std::vector<Corners>>& faces,
                             const std::vector<Vec2d>& places) {
-    using Edge = std::pair<std::size_t, std::size_t>;
     const auto each_edge = [](const std::vector<Corners>& face, auto&& f) {
         for (const Corners& ring : face) {
             for (std::size_t i = 0; i < ring.size(); ++i) {
                 const std::size_t a = ring[i];
                 const std::size_t b = ring[(i + 1) % ring.size()];
-                if (a != b) f(Edge(std::min(a, b), std::max(a, b)));
+                if (a != b) f(CornerPair(std::min(a, b), std::max(a, b)));
             }
         }
     };
     DisjointSets together(static_cast<std::int64_t>(faces.size()));
     const auto number = [](std::size_t i) { return static_cast<std::int32_t>(i); };
-    std::map<Edge, std::size_t> first;
+    std::map<CornerPair, std::size_t> first;
     for (std::size_t i = 0; i < faces.size(); ++i) {
-        each_edge(faces[i], [&](const Edge& e) {
+        each_edge(faces[i], [&](const CornerPair& e) {
             const auto [at, is_new] = first.emplace(e, i);
             if (!is_new) together.merge(number(at->second), number(i));
         });
     }
-    std::map<std::int32_t, std::set<Edge>> border;  // by the set of faces
+    std::map<std::int32_t, std::set<CornerPair>> border;  // by the set of faces
     for (std::size_t i = 0; i < faces.size(); ++i) {
-        std::set<Edge>& edges = border[together.root(number(i))];
-        each_edge(faces[i], [&](const Edge& e) {
+        std::set<CornerPair>& edges = border[together.root(number(i))];
+        each_edge(faces[i], [&](const CornerPair& e) {
             if (!edges.insert(e).second) edges.erase(e);
         });
     }
     std::vector<Polygon> out;
     for (const auto& [set, edges] : border) {
-        for (Polygon& p : polygons_of(rings_along(edges, places))) out.push_back(std::move(p));
+        // Every corner of rings has an even number of edges, also when shared ones go.
+        const auto rings = rings_along({edges.begin(), edges.end()}, places);
+        for (Polygon& p : polygons_of(*rings)) out.push_back(std::move(p));
     }
     return out;
 }

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "io/features/role_tally.h"
+#include "io/formats/rings.h"
 
 namespace vfplan {
 namespace {
-
-using Pair = std::pair<std::size_t, std::size_t>;
 
 class House {
 public:
@@ -31,8 +29,8 @@ public:
     const Vec2d& place(std::size_t junction) const { return places_[junction]; }
 
     // The lines of a plane as pairs of junctions.
-    std::vector<Pair> pairs(std::size_t plane) const {
-        std::vector<Pair> out;
+    std::vector<CornerPair> pairs(std::size_t plane) const {
+        std::vector<CornerPair> out;
         for (const std::size_t line : lines_of_plane_[plane]) {
             if (line >= ends_.size() || ends_[line].size() != 2) continue;  // not bounded
             if (std::max(ends_[line][0], ends_[line][1]) >= places_.size()) continue;
@@ -43,38 +41,9 @@ public:
 
     // The rings that the lines of a plane make.
     std::vector<Ring> rings(std::size_t plane) const {
-        std::multimap<std::size_t, std::size_t> next;
-        for (const auto& [a, b] : pairs(plane)) {
-            next.emplace(a, b);
-            next.emplace(b, a);
-        }
-        const auto take = [&](std::size_t from, std::size_t to) {
-            const auto range = next.equal_range(from);
-            for (auto it = range.first; it != range.second; ++it) {
-                if (it->second != to) continue;
-                next.erase(it);
-                return;
-            }
-        };
-        std::vector<Ring> out;
-        while (!next.empty()) {
-            const std::size_t first = next.begin()->first;
-            Ring ring;
-            std::size_t at = first;
-            do {
-                ring.push_back(places_[at]);
-                const auto to = next.find(at);
-                if (to == next.end()) {
-                    root_["planes"].at(plane).fail("the lines of this floor make no ring");
-                }
-                const std::size_t then = to->second;
-                take(at, then);
-                take(then, at);
-                at = then;
-            } while (at != first);
-            if (ring.size() > 2) out.push_back(std::move(ring));
-        }
-        return out;
+        auto out = rings_along(pairs(plane), places_);
+        if (!out) root_["planes"].at(plane).fail("the lines of this floor make no ring");
+        return std::move(*out);
     }
 
 private:

@@ -24,6 +24,7 @@
 #include "io/formats/dxf_text.h"
 #include "io/formats/json_document.h"
 #include "io/formats/osm_text.h"
+#include "io/formats/text.h"
 #include "kernels/error.h"
 
 namespace vfplan {

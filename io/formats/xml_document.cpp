@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <charconv>
-#include <cmath>
 #include <cstring>
+#include <string_view>
 
-#include "io/formats/json_document.h"
+#include "io/formats/text.h"
 #include "kernels/error.h"
 
 namespace vfplan {
@@ -38,15 +37,13 @@ XmlDocument::XmlDocument(std::string text, const std::filesystem::path& file)
 }
 
 double XmlDocument::parsed(const pugi::xml_node& node, const char* name, const char* value) const {
-    while (std::isspace(static_cast<unsigned char>(*value)) != 0) ++value;
-    double out = 0;
-    const char* stop = value + std::strlen(value);
-    auto [end, error] = std::from_chars(value, stop, out);
-    while (end != stop && std::isspace(static_cast<unsigned char>(*end)) != 0) ++end;
-    if (error != std::errc() || end != stop || !std::isfinite(out)) {
-        fail(node, fmt::format("{} = '{:.40}' is no number", name, value));
-    }
-    return out;
+    std::string_view text = value;
+    const auto space = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
+    while (!text.empty() && space(text.front())) text.remove_prefix(1);
+    while (!text.empty() && space(text.back())) text.remove_suffix(1);
+    const auto out = number_in<double>(text);
+    if (!out) fail(node, fmt::format("{} = '{:.40}' is no number", name, text));
+    return *out;
 }
 
 double XmlDocument::number(const pugi::xml_node& node, const char* attribute) const {
