@@ -113,16 +113,12 @@ BareSite bare_site(const std::filesystem::path& file, const std::vector<std::str
         set = read(job("", crs));
     }
     if (given("preset")) return {job("", crs), std::move(set)};
-    // What is always a plan, whatever is in it.
-    constexpr std::array plans = {"DXF",          "Sweet Home 3D",         "HouseExpo",
-                                  "Structured3D", "office and school XML", "AGPLIB",
-                                  "ROS map"};
-    const bool plan = std::find(plans.begin(), plans.end(), set.how.format) != plans.end() ||
-                      std::any_of(set.features.begin(), set.features.end(), [](const Feature& f) {
-                          constexpr std::array roles = {Role::room, Role::door, Role::window,
-                                                        Role::outline, Role::opening};
-                          return std::find(roles.begin(), roles.end(), f.role) != roles.end();
-                      });
+    const bool plan =
+        set.how.plan || std::any_of(set.features.begin(), set.features.end(), [](const Feature& f) {
+            constexpr std::array roles = {Role::room, Role::door, Role::window, Role::outline,
+                                          Role::opening};
+            return std::find(roles.begin(), roles.end(), f.role) != roles.end();
+        });
     // Without a preset a job is outdoor.
     if (!plan) return {job("outdoor", crs), std::move(set)};
     return {job("indoor", crs), {}};

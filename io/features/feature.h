@@ -84,7 +84,9 @@ struct ReadAs {
 // How a file was understood.
 struct HowRead {
     std::string format;
-    std::string unit;  // of the file, in words
+    std::string unit;     // of the file, in words
+    bool plan = false;    // the format is one of floor plans, whatever is in the file
+    bool layers = false;  // options.layer has a meaning for the format
     std::vector<ReadAs> as;
 };
 

@@ -124,6 +124,7 @@ Drawing read_art_gallery(const std::string& text, const std::filesystem::path& f
     Drawing out;
     RoleTally tally;
     out.set.how.format = "AGPLIB";
+    out.set.how.plan = true;
     out.unit.guessed = true;
     if (const auto role = tally.settle(options, "gallery", Role::outline)) {
         Feature f;

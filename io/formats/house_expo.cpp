@@ -8,6 +8,7 @@ Drawing read_house_expo(const JsonAt& root, const ReadOptions& options) {
     Drawing out;
     RoleTally tally;
     out.set.how.format = "HouseExpo";
+    out.set.how.plan = true;
     out.unit = {1, "metres (HouseExpo)"};
     const JsonAt verts = root["verts"];
     Polygon outline;

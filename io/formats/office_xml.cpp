@@ -126,6 +126,7 @@ Drawing read_office_xml(const XmlDocument& document, const ReadOptions& options)
     Drawing out;
     RoleTally tally;
     out.set.how.format = "office and school XML";
+    out.set.how.plan = true;
     const pugi::xml_node scale = root.child("scale");
     const double pixels = document.child_number(scale.child("represented_distance"), "value");
     const double real = document.child_number(scale.child("real_distance"), "value");

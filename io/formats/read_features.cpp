@@ -152,7 +152,7 @@ FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& o
                         "attributes to ask for; leave it out, or use site.roles",
                         options.where, file.string(), ours->set.how.format));
     }
-    if (ours && !options.layer.empty() && ours->set.how.format != "Sweet Home 3D") {
+    if (ours && !options.layer.empty() && !ours->set.how.layers) {
         throw InputError(fmt::format("{}: no layer '{}'; {} has no layers, leave site.layer out",
                                      file.string(), options.layer, ours->set.how.format));
     }

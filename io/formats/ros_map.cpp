@@ -161,6 +161,7 @@ Drawing read_ros_map(const std::string& text, const std::filesystem::path& file,
     Drawing out;
     RoleTally tally;
     out.set.how.format = "ROS map";
+    out.set.how.plan = true;
     out.unit = {1, fmt::format("metres, {} a pixel (ROS map)", info.resolution_m)};
     const Vec2d u(std::cos(info.yaw) * info.resolution_m, std::sin(info.yaw) * info.resolution_m);
     const Vec2d v(-u.y(), u.x());

@@ -108,6 +108,7 @@ Drawing read_structured3d(const JsonAt& root, const ReadOptions& options) {
     Drawing out;
     RoleTally tally;
     out.set.how.format = "Structured3D";
+    out.set.how.plan = true;
     out.unit = {0.001, "millimetres (Structured3D)"};
     const auto add = [&](std::size_t number, const std::string& text, Role own, Feature f) {
         const auto role = tally.settle(options, text, own);

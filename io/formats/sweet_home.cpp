@@ -66,6 +66,8 @@ public:
 
     Drawing read() {
         out_.set.how.format = "Sweet Home 3D";
+        out_.set.how.plan = true;
+        out_.set.how.layers = true;
         out_.unit = {0.01, "centimetres (Sweet Home 3D)"};
         for (const HomeWall& w : walls_) {
             add("wall", Role::wall, w.id, {outline(w)});

@@ -344,6 +344,8 @@ Drawing read_vector(const PackedFile& packed, const std::filesystem::path& file,
                                      file.string(), place_of(why, packed, file), why));
     }
     out.set.how.format = driver;
+    out.set.how.plan = driver == "DXF";
+    out.set.how.layers = true;
     if (!layers.empty()) out.crs = declared_crs(layers.front(), driver);
     return out;
 }

@@ -14,17 +14,12 @@ namespace vfplan {
 namespace {
 
 using nlohmann::json;
+using test::indoor;
 using test::is_free;
 using test::TemporaryFile;
 using test::TemporaryFolder;
 using test::total_length;
 using test::wall_through;
-
-SiteOptions indoor() {
-    SiteOptions options;
-    options.kind = SiteKind::indoor;
-    return options;
-}
 
 double area_m2(const Polygon& p) {
     const auto of = [](const Ring& r) {

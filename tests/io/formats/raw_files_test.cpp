@@ -12,12 +12,7 @@ namespace {
 
 using test::apart;
 using test::Apart;
-
-SiteOptions indoor() {
-    SiteOptions options;
-    options.kind = SiteKind::indoor;
-    return options;
-}
+using test::indoor;
 
 // Both ways, with the file moved to where the GeoJSON has its origin.
 Apart compared(const std::string& raw, const std::string& geojson, const SiteOptions& options,

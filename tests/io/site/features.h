@@ -38,6 +38,12 @@ inline void add_line(FeatureSet& set, Role role, Line line) {
     set.features.push_back(std::move(f));
 }
 
+inline SiteOptions indoor() {
+    SiteOptions options;
+    options.kind = SiteKind::indoor;
+    return options;
+}
+
 inline double total_length(const Site& site) {
     double sum = 0;
     for (const Wall& w : site.walls) sum += w.length_m();

@@ -13,6 +13,7 @@ namespace {
 using test::add_line;
 using test::add_polygon;
 using test::box_ring;
+using test::indoor;
 
 double faces_m(const Site& site) {
     double sum = 0;
@@ -20,12 +21,6 @@ double faces_m(const Site& site) {
         if (w.scanned) sum += (w.free_side[left] + w.free_side[right]) * w.length_m();
     }
     return sum;
-}
-
-SiteOptions indoor() {
-    SiteOptions options;
-    options.kind = SiteKind::indoor;
-    return options;
 }
 
 double indoor_faces_m(const FeatureSet& set) {

@@ -12,15 +12,10 @@ using test::add_line;
 using test::add_polygon;
 using test::box_ring;
 using test::free_towards;
+using test::indoor;
 using test::is_free;
 using test::total_length;
 using test::wall_through;
-
-SiteOptions indoor() {
-    SiteOptions options;
-    options.kind = SiteKind::indoor;
-    return options;
-}
 
 Site build(const FeatureSet& set, const SiteOptions& options = indoor()) {
     return build_site(set, options, "plan").site;
