@@ -90,17 +90,20 @@ std::filesystem::path out_of(const Shared& s) {
     return out;
 }
 
-// A job file, or a site that is planned with the preset that fits.
-Config job_or_site(const Shared& s) {
-    if (std::filesystem::path(s.job).extension() == ".toml") return read_config(s.job, s.sets);
-    const SignalsEnd at_once;  // nothing is written yet
-    return bare_site(s.job, s.sets).config;
+bool is_job_file(const Shared& s) { return std::filesystem::path(s.job).extension() == ".toml"; }
+
+// A job file, or a site that is planned with the preset that fits. Nothing is written, so a signal
+// may end it at once.
+BareSite job_or_site(const Shared& s) {
+    if (is_job_file(s)) return {read_config(s.job, s.sets), {}};
+    const SignalsEnd at_once;
+    return bare_site(s.job, s.sets);
 }
 
 int run_or_precompute(const Shared& s, bool plan, const Ranks& ranks) {
     Progress progress(s.quiet, !ranks.leader());
-    const Config config = job_or_site(s);
-    if (ranks.leader() && std::filesystem::path(s.job).extension() != ".toml") {
+    const Config config = job_or_site(s).config;
+    if (ranks.leader() && !is_job_file(s)) {
         progress.note(fmt::format("{} is a site, no job file: planned with preset \"{}\"", s.job,
                                   name_of(config.preset)));
     }
@@ -173,9 +176,8 @@ int look_at_site(const Shared& s) {
     const std::filesystem::path picture =
         s.out.empty() ? std::filesystem::path(s.job).stem().string() + ".site.png" : s.out;
     const auto look = [&] {
+        BareSite site = job_or_site(s);
         const SignalsEnd at_once;  // nothing is written yet
-        const bool job = std::filesystem::path(s.job).extension() == ".toml";
-        BareSite site = job ? BareSite{read_config(s.job, s.sets), {}} : bare_site(s.job, s.sets);
         return inspect(site.config, s.threads, std::move(site.features));
     };
     const Inspection found = look();

@@ -25,6 +25,19 @@ public:
         count(text, ruled ? ruled : own, ruled ? "site.roles" : "format");
         return ruled ? ruled : own;
     }
+    // A feature of a format of our own, numbered as it comes, for the caller to give a shape; null
+    // when it is left out. It stays where it is until the next.
+    Feature* add(FeatureSet& set, const ReadOptions& options, const std::string& text,
+                 std::optional<Role> own, const std::string& id = "") {
+        const auto role = settle(options, text, own);
+        if (!role) return nullptr;
+        Feature f;
+        f.number = static_cast<std::int64_t>(set.features.size()) + 1;
+        f.id = id;
+        f.role = *role;
+        set.features.push_back(std::move(f));
+        return &set.features.back();
+    }
     void add_to(FeatureSet& set, const std::string& layer) const {
         for (const auto& [key, count] : as_) {
             const auto& [text, role, why] = key;

@@ -126,12 +126,8 @@ Drawing read_art_gallery(const std::string& text, const std::filesystem::path& f
     out.set.how.format = "AGPLIB";
     out.set.how.plan = true;
     out.unit.guessed = true;
-    if (const auto role = tally.settle(options, "gallery", Role::outline)) {
-        Feature f;
-        f.number = 1;
-        f.role = *role;
-        f.polygons.push_back(std::move(gallery));
-        out.set.features.push_back(std::move(f));
+    if (Feature* f = tally.add(out.set, options, "gallery", Role::outline)) {
+        f->polygons.push_back(std::move(gallery));
     }
     tally.add_to(out.set, "");
     return out;

@@ -20,13 +20,9 @@ Drawing read_house_expo(const JsonAt& root, const ReadOptions& options) {
         outline.outer.pop_back();
     }
     if (outline.outer.size() < 3) verts.fail("an outline has three corners at least");
-    if (const auto role = tally.settle(options, "verts", Role::outline)) {
-        Feature f;
-        f.number = 1;
-        if (root.has("id")) f.id = root["id"].text();
-        f.role = *role;
-        f.polygons.push_back(std::move(outline));
-        out.set.features.push_back(std::move(f));
+    const std::string id = root.has("id") ? root["id"].text() : "";
+    if (Feature* f = tally.add(out.set, options, "verts", Role::outline, id)) {
+        f->polygons.push_back(std::move(outline));
     }
     if (root.has("room_category")) {
         for (const auto& [name, boxes] : root["room_category"].value().items()) {

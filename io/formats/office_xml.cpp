@@ -170,15 +170,8 @@ Drawing read_office_xml(const XmlDocument& document, const ReadOptions& options)
     }
     if (spaces.empty()) document.fail(root, "there is no space in it");
 
-    const auto add = [&](const std::string& text, Role own, const std::string& id) -> Feature* {
-        const auto role = tally.settle(options, text, own);
-        if (!role) return nullptr;
-        Feature f;
-        f.number = static_cast<std::int64_t>(out.set.features.size()) + 1;
-        f.id = id;
-        f.role = *role;
-        out.set.features.push_back(std::move(f));
-        return &out.set.features.back();
+    const auto add = [&](const std::string& text, Role own, const std::string& id) {
+        return tally.add(out.set, options, text, own, id);
     };
     for (const Space& space : spaces) {
         const std::string label = space.label.empty() ? "space" : space.label;

@@ -169,14 +169,10 @@ Drawing read_ros_map(const std::string& text, const std::filesystem::path& file,
     const auto add = [&](const std::string& text_of_it, Role own,
                          const std::function<bool(int)>& wanted) {
         for (Polygon& p : traced(image, wanted, specks)) {
-            const auto role = tally.settle(options, text_of_it, own);
-            if (!role) continue;
-            Feature f;
-            f.number = static_cast<std::int64_t>(out.set.features.size()) + 1;
-            f.role = *role;
-            f.polygons.push_back(std::move(p));
-            each_point(f, [&](Vec2d& q) { q = Vec2d(info.x, info.y) + q.x() * u + q.y() * v; });
-            out.set.features.push_back(std::move(f));
+            Feature* f = tally.add(out.set, options, text_of_it, own);
+            if (f == nullptr) continue;
+            f->polygons.push_back(std::move(p));
+            each_point(*f, [&](Vec2d& q) { q = Vec2d(info.x, info.y) + q.x() * u + q.y() * v; });
         }
     };
     add("occupied", Role::wall, [&](int g) { return info.probability(g) > info.occupied; });

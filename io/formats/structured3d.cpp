@@ -111,12 +111,11 @@ Drawing read_structured3d(const JsonAt& root, const ReadOptions& options) {
     out.set.how.plan = true;
     out.unit = {0.001, "millimetres (Structured3D)"};
     const auto add = [&](std::size_t number, const std::string& text, Role own, Feature f) {
-        const auto role = tally.settle(options, text, own);
-        if (!role) return;
-        f.number = static_cast<std::int64_t>(number) + 1;
-        f.id = text;
-        f.role = *role;
-        out.set.features.push_back(std::move(f));
+        Feature* added = tally.add(out.set, options, text, own, text);
+        if (added == nullptr) return;
+        added->number = static_cast<std::int64_t>(number) + 1;
+        added->polygons = std::move(f.polygons);
+        added->lines = std::move(f.lines);
     };
     const JsonAt semantics = root["semantics"];
     for (std::size_t s = 0; s < semantics.size(); ++s) {

@@ -217,8 +217,9 @@ private:
 
     void add_furniture(const pugi::xml_node& node) {
         const std::string text = std::string("furniture ") + node.attribute("name").value();
-        const auto role = tally_.settle(options_, text, {});
-        if (role) add_feature(*role, text, {piece_of(node).rectangle()});
+        if (Feature* f = tally_.add(out_.set, options_, text, {}, text)) {
+            f->polygons = {piece_of(node).rectangle()};
+        }
     }
 
     // The stretches that a door takes up of the walls it stands in; without walls its own place.
@@ -258,17 +259,7 @@ private:
     }
 
     void add(const std::string& text, Role own, const std::string& id, std::vector<Polygon> p) {
-        if (const auto role = tally_.settle(options_, text, own)) {
-            add_feature(*role, id, std::move(p));
-        }
-    }
-    void add_feature(Role role, const std::string& id, std::vector<Polygon> polygons) {
-        Feature f;
-        f.number = static_cast<std::int64_t>(out_.set.features.size()) + 1;
-        f.id = id;
-        f.role = role;
-        f.polygons = std::move(polygons);
-        out_.set.features.push_back(std::move(f));
+        if (Feature* f = tally_.add(out_.set, options_, text, own, id)) f->polygons = std::move(p);
     }
 
     const XmlDocument& document_;
