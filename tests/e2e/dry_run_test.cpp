@@ -1,16 +1,11 @@
 // A dry run: bounded whatever the job, names what lies far off, refuses what cannot be done.
 #include <csignal>
 
+#include "../words.h"
 #include "program.h"
 
 namespace vfplan::test {
 namespace {
-
-void expect_words(const std::string& text, const std::vector<std::string>& words) {
-    for (const std::string& w : words) {
-        EXPECT_NE(text.find(w), std::string::npos) << "no \"" << w << "\" in: " << text;
-    }
-}
 
 // The number behind a word of what a dry run prints.
 double number_after(const std::string& text, const std::string& word) {

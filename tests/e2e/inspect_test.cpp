@@ -2,16 +2,11 @@
 #include <csignal>
 #include <fstream>
 
+#include "../words.h"
 #include "program.h"
 
 namespace vfplan::test {
 namespace {
-
-void expect_words(const std::string& text, const std::vector<std::string>& words) {
-    for (const std::string& w : words) {
-        EXPECT_NE(text.find(w), std::string::npos) << "no \"" << w << "\" in: " << text;
-    }
-}
 
 TEST(Inspect, SaysHowASiteIsReadAndDrawsIt) {
     const Scratch scratch;

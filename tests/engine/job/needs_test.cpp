@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "kernels/error.h"
+#include "tests/words.h"
 
 namespace vfplan {
 namespace {
+
+using test::expect_words;
 
 Layout layout(std::int32_t nx, std::int32_t ny, double cell_m, double range_m,
               std::int64_t tile_cells = 1024) {
@@ -21,12 +24,6 @@ std::string refusal(const GroundOptions& o, const Layout& l, std::int64_t pieces
         return e.what();
     }
     return "";
-}
-
-void expect_words(const std::string& text, const std::vector<std::string>& words) {
-    for (const std::string& w : words) {
-        EXPECT_NE(text.find(w), std::string::npos) << "no \"" << w << "\" in: " << text;
-    }
 }
 
 TEST(Needs, WhatFitsIsNotRefused) {

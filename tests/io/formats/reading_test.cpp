@@ -6,10 +6,13 @@
 #include "io/formats/read_features.h"
 #include "kernels/error.h"
 #include "tests/io/site/features.h"
+#include "tests/words.h"
 
 namespace vfplan {
 namespace {
 
+using test::expect_words;
+using test::message_of;
 using test::TemporaryFile;
 
 std::string geojson(const std::vector<std::string>& features, const std::string& head = "") {
@@ -28,22 +31,6 @@ std::vector<Role> roles(const FeatureSet& set) {
     std::vector<Role> out;
     for (const Feature& f : set.features) out.push_back(f.role);
     return out;
-}
-
-template <class E, class F>
-std::string message_of(F&& f) {
-    try {
-        f();
-    } catch (const E& e) {
-        return e.what();
-    }
-    return "no error";
-}
-
-void expect_words(const std::string& text, const std::vector<std::string>& words) {
-    for (const std::string& w : words) {
-        EXPECT_NE(text.find(w), std::string::npos) << "no \"" << w << "\" in: " << text;
-    }
 }
 
 TEST(Reading, AStreetIsNoTreeAndRulesDecideFirst) {
