@@ -62,6 +62,13 @@ std::vector<LatticeWall> joined(std::vector<LatticeWall> walls) {
     return out;
 }
 
+// An edge between what nobody is kept out of, that a door or window made so: a line in it, or the
+// border of a solid part of it.
+bool opens(Kinds on_left, Kinds on_right, bool line_along) {
+    const Kinds around = line_along ? on_left & on_right : on_left | on_right;
+    return (around & bit(opened_area)) != 0;
+}
+
 }  // namespace
 
 Subdivision subdivide(const Linework& linework, double margin_m) {
@@ -138,17 +145,6 @@ void settle_openings(Subdivision& s) {
         }
     }
 }
-
-namespace {
-
-// An edge between what nobody is kept out of, that a door or window made so: a line in it, or the
-// border of a solid part of it.
-bool opens(Kinds on_left, Kinds on_right, bool line_along) {
-    const Kinds around = line_along ? on_left & on_right : on_left | on_right;
-    return (around & bit(opened_area)) != 0;
-}
-
-}  // namespace
 
 std::vector<EdgeUse> walls_among(const Subdivision& s, CleaningCounts& counts) {
     std::vector<EdgeUse> out(s.noded.edges.size());

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <optional>
 
 #include "io/formats/read_features.h"
 #include "tests/data.h"
@@ -14,28 +15,20 @@ using test::apart;
 using test::Apart;
 using test::indoor;
 
-// Both ways, with the file moved to where the GeoJSON has its origin.
+// Both ways, with the file moved to where the GeoJSON has its origin; without a move, the lower
+// left corners of their extents are laid on each other.
 Apart compared(const std::string& raw, const std::string& geojson, const SiteOptions& options,
-               const Vec2d& move) {
-    const Site a = read_site(test::data_dir() / raw, options).site;
-    SiteOptions plain = options;
-    plain.layer.clear();
-    plain.crs.clear();
-    const Site b = read_site(test::data_dir() / geojson, plain).site;
-    return apart(a, b, move);
-}
-
-// The move that lays the lower left corner of one extent on that of the other.
-Vec2d corners(const std::string& raw, const std::string& geojson, const SiteOptions& options) {
+               std::optional<Vec2d> move = {}) {
     const Site a = read_site(test::data_dir() / raw, options).site;
     const Site b = read_site(test::data_dir() / geojson, options).site;
-    return b.origin + b.extent.min - a.origin - a.extent.min;
+    if (!move) move = b.origin + b.extent.min - a.origin - a.extent.min;
+    return apart(a, b, *move);
 }
 
 TEST(RawFiles, Delft) {
     VFPLAN_NEED_DATA("town_delft/raw/delft.json");
     const Apart d = compared("town_delft/raw/delft.json", "town_delft/delft_full.geojson", {},
-                             {-84616.468, -447422.999});
+                             Vec2d(-84616.468, -447422.999));
     std::printf("Delft: %s\n", d.text().c_str());
     EXPECT_EQ(d.wrong_m, 0) << d.text();
 }
@@ -43,7 +36,7 @@ TEST(RawFiles, Delft) {
 TEST(RawFiles, HouseExpo) {
     VFPLAN_NEED_DATA("plan_houseexpo/raw");
     const Apart d = compared("plan_houseexpo/raw/0a1b29dba355df2ab02630133187bfab.json",
-                             "plan_houseexpo/houseexpo_0a1b29db.geojson", indoor(), {0, 0});
+                             "plan_houseexpo/houseexpo_0a1b29db.geojson", indoor(), Vec2d(0, 0));
     std::printf("HouseExpo: %s\n", d.text().c_str());
     EXPECT_EQ(d.wrong_m, 0) << d.text();
     EXPECT_EQ(d.slits_m, 0) << d.text();
@@ -53,8 +46,9 @@ TEST(RawFiles, HouseExpo) {
 // bluntly, and lacks crumbs of wall between two doors.
 TEST(RawFiles, Arlington) {
     VFPLAN_NEED_DATA("plan_arlington_school/raw/Home.xml");
-    const Apart d = compared("plan_arlington_school/raw/Home.xml",
-                             "plan_arlington_school/arlington_school.geojson", indoor(), {-2, 122});
+    const Apart d =
+        compared("plan_arlington_school/raw/Home.xml",
+                 "plan_arlington_school/arlington_school.geojson", indoor(), Vec2d(-2, 122));
     std::printf("Arlington: %s\n", d.text().c_str());
     EXPECT_LT(d.wrong_m, 0.004 * d.length_m[0]) << d.text();
 }
@@ -72,7 +66,7 @@ TEST(RawFiles, OfficesAndSchools) {
         const std::string name = entry.path().stem().string();
         const std::string raw = "plans_offices_schools/raw/" + name + ".xml";
         const std::string geojson = "plans_offices_schools/" + name + ".geojson";
-        const Apart d = compared(raw, geojson, indoor(), corners(raw, geojson, indoor()));
+        const Apart d = compared(raw, geojson, indoor());
         EXPECT_LT(d.wrong_m, 0.012 * d.length_m[0]) << name << ": " << d.text();
         wrong_m += d.wrong_m;
         all_m += d.length_m[0];
