@@ -58,6 +58,8 @@ TableOptions table_options(const Config& c) {
     return {scene_options(c), c.field.tile_cells, c.field.threshold_rad, overlap_rule(c), {}, {}};
 }
 
-PlanOptions plan_options(const Config& c) { return {c.plan.method, c.plan.loops, overlap_rule(c)}; }
+PlanOptions plan_options(const Config& c) {
+    return {c.plan.method, c.plan.loops, overlap_rule(c), c.plan.effort};
+}
 
 }  // namespace vfplan

@@ -87,12 +87,11 @@ Json summary_of_plan(const Planned& p, const CoverageTables& t) {
     j["redundant_links"] = m.redundant_links;
     j["lower_bound"] = m.lower_bound;
     j["gap"] = m.gap;
+    j["stations_connected"] = p.report.connected;
+    if (p.loops) j["stations_loops"] = p.plan.stations.size();
     j["plan"] = {{"stations_greedy", p.report.greedy_stations},
-                 {"stations_pruned", p.report.pruned_stations},
-                 {"stations_before_loops", p.report.before_loops},
-                 {"stations_after_loops", p.plan.stations.size()},
-                 {"off_cycle_before_loops", p.report.off_cycle_before},
-                 {"off_cycle_after_loops", p.report.off_cycle_after}};
+                 {"off_cycle_connected", p.report.off_cycle_before},
+                 {"off_cycle", p.report.off_cycle_after}};
     j["histograms"] = {{"stations_per_piece", m.multiplicity},
                        {"range_by_tenth_of_max", m.range_tenths},
                        {"incidence_by_10_deg", m.incidence_tens}};

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "engine/plan/cuts.h"
+#include "engine/graphs/cuts.h"
 #include "kernels/angle.h"
 #include "kernels/disjoint_sets.h"
 #include "kernels/index.h"

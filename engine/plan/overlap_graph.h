@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/plan/graph.h"
+#include "engine/graphs/graph.h"
 #include "engine/runtime/parallel.h"
 #include "kernels/overlap_rows.h"
 

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include "engine/plan/cuts.h"
+#include "engine/graphs/cuts.h"
 #include "engine/plan/greedy.h"
 #include "engine/plan/loops.h"
 #include "engine/plan/prune.h"
+#include "engine/plan/refine.h"
 #include "kernels/index.h"
 
 namespace vfplan {
@@ -51,20 +52,22 @@ void count_coverage(const PlanInput& in, const Chosen& chosen, std::vector<std::
 }
 
 // Stations on no cycle, in networks of more than one.
-std::int64_t stations_off_cycle(const PlanInput& in, const std::vector<Chosen>& networks) {
+std::int64_t stations_off_cycle(const PlanInput& in, const std::vector<Network>& networks,
+                                Chosen Network::*plan) {
     std::vector<std::int32_t> all;
-    for (const Chosen& chosen : networks) {
-        if (chosen.size() > 1) all.insert(all.end(), chosen.begin(), chosen.end());
+    for (const Network& n : networks) {
+        const Chosen& stations = n.*plan;
+        if (stations.size() > 1) all.insert(all.end(), stations.begin(), stations.end());
     }
     std::sort(all.begin(), all.end());
     const Cuts cuts = find_cuts(induced(in.graph, all));
     return std::count(cuts.on_cycle.begin(), cuts.on_cycle.end(), 0);
 }
 
-void add_stations(const PlanInput& in, const std::vector<Chosen>& networks, Plan& plan) {
+void add_stations(const PlanInput& in, const std::vector<Network>& networks, Plan& plan) {
     std::vector<std::uint8_t> covered(in.piece_length_m.size(), 0);
     for (std::size_t network = 0; network < networks.size(); ++network) {
-        for (const std::int32_t c : networks[network]) {
+        for (const std::int32_t c : networks[network].chosen) {
             Station station;
             station.candidate = c;
             station.network = static_cast<std::int32_t>(network);
@@ -102,7 +105,8 @@ void add_links(const PlanInput& in, Plan& plan) {
 
 }  // namespace
 
-Plan make_plan(const PlanInput& in, const PlanOptions& options, PlanReport& report) {
+Plan make_plan(const Threads& threads, const PlanInput& in, const PlanOptions& options,
+               PlanReport& report) {
     report = {};
     Plan plan;
     plan.pieces = in.status;
@@ -112,40 +116,48 @@ Plan make_plan(const PlanInput& in, const PlanOptions& options, PlanReport& repo
         if (wanted[p] != 0) plan.pieces[p] = PieceStatus::unreached;
     }
     Workspace work(in.graph);
-    std::vector<Chosen> networks;
-    std::vector<std::uint8_t> kept(idx(in.graph.size()), 0);
-    for (const std::vector<std::int32_t>& members : ranked_components(in)) {
+    std::vector<Network> networks;
+    std::vector<std::uint8_t> fixed(idx(in.graph.size()), 0);
+    std::vector<std::int32_t> owner(in.piece_length_m.size(), -1);
+    for (std::vector<std::int32_t>& members : ranked_components(in)) {
         std::vector<std::int32_t> forced;
         bool adds = false;
+        const auto number = static_cast<std::int32_t>(networks.size());
         for (const std::int32_t c : members) {
             if (is_forced(in.candidates[idx(c)])) {
                 forced.push_back(c);
-                kept[idx(c)] = 1;
+                fixed[idx(c)] = 1;
             }
-            for (const std::int32_t p : in.rows.row(c)) adds = adds || wanted[idx(p)] != 0;
+            for (const std::int32_t p : in.rows.row(c)) {
+                if (wanted[idx(p)] == 0) continue;
+                owner[idx(p)] = number;
+                adds = true;
+            }
         }
         if (!adds && forced.empty()) continue;
-        networks.push_back(choose_greedily(in, members, forced, wanted, work));
-        report.greedy_stations += static_cast<std::int64_t>(networks.back().size());
+        Chosen chosen = choose_greedily(in, members, forced, wanted, work);
+        networks.push_back({std::move(members), std::move(chosen), {}});
+        report.greedy_stations += static_cast<std::int64_t>(networks.back().chosen.size());
     }
-    if (options.method != PlanMethod::greedy) {
-        std::vector<std::int32_t> count(in.piece_length_m.size(), 0);
-        for (Chosen& chosen : networks) {
-            // With the networks before it, so that the main one never leans on a lesser one.
-            count_coverage(in, chosen, count);
-            const std::size_t before = chosen.size();
-            chosen = prune(in, chosen, kept, count, work);
-            report.pruned_stations += static_cast<std::int64_t>(before - chosen.size());
+    if (options.method == PlanMethod::greedy) {
+        for (Network& n : networks) {
+            n.connected = n.chosen;
+            if (options.loops) n.chosen = close_loops(in, n.chosen, work);
         }
+    } else {
+        std::vector<std::int32_t> count(in.piece_length_m.size(), 0);
+        for (Network& n : networks) {
+            // With the networks before it, so that the main one never leans on a lesser one.
+            count_coverage(in, n.chosen, count);
+            n.chosen = prune(in, n.chosen, fixed, count, work);
+        }
+        refine(threads, in, options, owner, fixed, networks);
     }
-    report.off_cycle_before = report.off_cycle_after = stations_off_cycle(in, networks);
-    for (const Chosen& chosen : networks) {
-        report.before_loops += static_cast<std::int64_t>(chosen.size());
+    for (const Network& n : networks) {
+        report.connected += static_cast<std::int64_t>(n.connected.size());
     }
-    if (options.loops) {
-        for (Chosen& chosen : networks) chosen = close_loops(in, chosen, work);
-        report.off_cycle_after = stations_off_cycle(in, networks);
-    }
+    report.off_cycle_before = stations_off_cycle(in, networks, &Network::connected);
+    report.off_cycle_after = stations_off_cycle(in, networks, &Network::chosen);
     add_stations(in, networks, plan);
     add_links(in, plan);
     return plan;

@@ -6,22 +6,23 @@
 
 #include "engine/config/options.h"
 #include "engine/plan/workspace.h"
+#include "engine/runtime/parallel.h"
 
 namespace vfplan {
 
 // What happened on the way.
 struct PlanReport {
     std::int64_t greedy_stations = 0;   // Algorithm 1 alone
-    std::int64_t pruned_stations = 0;   // taken out again
-    std::int64_t before_loops = 0;      // before loops were closed
-    std::int64_t off_cycle_before = 0;  // stations on no cycle, before and after
-    std::int64_t off_cycle_after = 0;
+    std::int64_t connected = 0;         // the fewest found before loops count
+    std::int64_t off_cycle_before = 0;  // stations on no cycle in that plan,
+    std::int64_t off_cycle_after = 0;   // and in the plan that is given
 };
 
 // One network for each component of the graph that has something to add, that of the component
 // which can cover most length first; stations numbered by network, then in the order of choice.
 // Deterministic. Links have no ratios but that of the job yet (add_ratios), and there is no
 // certificate yet (independent_pieces).
-Plan make_plan(const PlanInput& input, const PlanOptions& options, PlanReport& report);
+Plan make_plan(const Threads& threads, const PlanInput& input, const PlanOptions& options,
+               PlanReport& report);
 
 }  // namespace vfplan

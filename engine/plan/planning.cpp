@@ -34,7 +34,8 @@ Planned plan_stations(const PlanTables& t, const PlanOptions& options, double ra
     const PlanInput input{t.coverage.candidates, t.rows, t.piece_length_m, t.coverage.status,
                           graph};
     progress.stage("plan");
-    out.plan = make_plan(input, options, out.report);
+    out.plan = make_plan(threads, input, options, out.report);
+    out.loops = options.loops;
     out.plan.bound_pieces = std::move(bound_pieces);
     add_ratios(input, t.angles, out.plan);
     progress.stage("metrics");

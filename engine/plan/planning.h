@@ -19,6 +19,7 @@ struct Planned {
     PlanReport report;
     Metrics metrics;
     JoinThresholds join_thresholds;
+    bool loops = false;  // whether they were asked for
 };
 
 // What a plan is made from: about 4 bytes for each entry of the coverage table and 8 for each

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "engine/plan/cuts.h"
+#include "engine/graphs/cuts.h"
 #include "kernels/index.h"
 
 namespace vfplan {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/plan/cycles.h"
-#include "engine/plan/graph.h"
-#include "engine/plan/separation.h"
+#include "engine/graphs/cycles.h"
+#include "engine/graphs/graph.h"
+#include "engine/graphs/separation.h"
 #include "kernels/candidate.h"
 #include "kernels/overlap_rows.h"
 

@@ -1,11 +1,11 @@
 // Looking around one node must say what the cuts of the whole network say.
-#include "engine/plan/separation.h"
+#include "engine/graphs/separation.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "engine/plan/cuts.h"
+#include "engine/graphs/cuts.h"
 #include "kernels/index.h"
 
 namespace vfplan {

@@ -1,4 +1,4 @@
-#include "engine/plan/cycles.h"
+#include "engine/graphs/cycles.h"
 
 #include <cassert>
 #include <utility>

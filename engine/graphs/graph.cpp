@@ -1,4 +1,4 @@
-#include "engine/plan/graph.h"
+#include "engine/graphs/graph.h"
 
 namespace vfplan {
 

@@ -1,4 +1,4 @@
-#include "engine/plan/separation.h"
+#include "engine/graphs/separation.h"
 
 #include <utility>
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/plan/graph.h"
+#include "engine/graphs/graph.h"
 
 namespace vfplan {
 

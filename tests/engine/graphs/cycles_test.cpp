@@ -1,11 +1,11 @@
 // Cycles of a growing network must be those of the network as it stands.
-#include "engine/plan/cycles.h"
+#include "engine/graphs/cycles.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "engine/plan/cuts.h"
+#include "engine/graphs/cuts.h"
 #include "tests/engine/plan/hand_made.h"
 
 namespace vfplan {

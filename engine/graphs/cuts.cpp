@@ -1,4 +1,4 @@
-#include "engine/plan/cuts.h"
+#include "engine/graphs/cuts.h"
 
 #include <algorithm>
 
@@ -28,6 +28,7 @@ Cuts find_cuts(const Graph& graph) {
     cuts.articulation.assign(n, 0);
     cuts.on_cycle.assign(n, 0);
     cuts.lesser_part.assign(n, 0);
+    cuts.block.assign(n, 0);
     std::vector<std::int32_t> order(n, -1);
     std::vector<std::int32_t> low(n, 0);
     std::vector<std::int32_t> parent(n, -1);
@@ -37,6 +38,7 @@ Cuts find_cuts(const Graph& graph) {
     std::vector<std::int32_t> stack;
     std::vector<std::int32_t> met;  // of one component, in their order
     std::int32_t clock = 0;
+    std::int32_t blocks = 0;
     for (std::int32_t root = 0; root < graph.size(); ++root) {
         if (order[idx(root)] >= 0) continue;
         order[idx(root)] = low[idx(root)] = clock++;
@@ -67,6 +69,11 @@ Cuts find_cuts(const Graph& graph) {
                 cuts.on_cycle[idx(v)] = cuts.on_cycle[idx(p)] = 1;
             }
             if (low[idx(v)] >= order[idx(p)]) sides[idx(p)].add(below[idx(v)]);
+        }
+        for (const std::int32_t v : met) {  // parents come first
+            const std::int32_t p = parent[idx(v)];
+            const bool apart = p < 0 || low[idx(v)] > order[idx(p)];
+            cuts.block[idx(v)] = apart ? blocks++ : cuts.block[idx(p)];
         }
         for (const std::int32_t v : met) {  // what is left lies above; nothing does above the root
             sides[idx(v)].add(below[idx(root)] - 1 - sides[idx(v)].all);

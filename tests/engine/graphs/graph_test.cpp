@@ -1,11 +1,11 @@
-#include "engine/plan/graph.h"
+#include "engine/graphs/graph.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <set>
 
-#include "engine/plan/cuts.h"
+#include "engine/graphs/cuts.h"
 #include "tests/engine/plan/table_graph.h"
 
 namespace vfplan {

@@ -1,0 +1,378 @@
+#include "engine/search/improve.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+#include "engine/search/choosing.h"
+#include "engine/search/dice.h"
+#include "engine/search/structure.h"
+
+namespace vfplan {
+namespace {
+
+// Costs and weights are whole numbers, so that sums do not depend on their order.
+constexpr std::int64_t one = 1 << 20;
+
+// e^-x, by means that give the same bits everywhere; 0 <= x.
+double fading(double x) {
+    if (x >= 64) return 0;
+    double y = 1 - x / 1024;
+    for (int i = 0; i < 10; ++i) y *= y;
+    return y;
+}
+
+class Improver {
+public:
+    Improver(const Problem& problem, const Choice& start, const ImproveOptions& options)
+        : p_(problem),
+          c_(problem),
+          structure_(problem, c_),
+          dice_(options.seed),
+          steps_(options.steps),
+          cycles_(!problem.loose.empty()),
+          gain_(idx(p_.columns()), 0),
+          listed_(idx(p_.columns()), 0),
+          met_(idx(p_.columns()), 0),
+          before_(idx(p_.columns()), -1),
+          side_(idx(p_.columns()), 0) {
+        for (const std::int32_t c : start) c_.add(c);
+        for (std::int32_t r = 0; r < p_.rows(); ++r) {
+            weight_.push_back(one / static_cast<std::int64_t>(p_.columns_of.of(r).size()));
+        }
+    }
+
+    Choice run() {
+        if (cycles_) close(true);
+        thin_out(c_.choice());
+        c_.forget_changes();
+        best_ = c_.choice();
+        cost_ = best_cost_ = cost();
+        const double hot = 0.6;
+        for (std::int64_t step = 0; step < steps_ && c_.chosen().size() > 1; ++step) {
+            const double heat = hot * (1 - static_cast<double>(step) / static_cast<double>(steps_));
+            if (!one_step(heat)) continue;
+            if (cost_ < best_cost_) {
+                best_ = c_.choice();
+                best_cost_ = cost_;
+            }
+        }
+        if (!cycles_) return best_;
+        take(best_);
+        close(true);
+        thin_out(c_.choice());
+        return c_.choice();
+    }
+
+private:
+    void take(const Choice& choice) {
+        for (const std::int32_t c : c_.choice()) c_.remove(c);
+        for (const std::int32_t c : choice) c_.add(c);
+        c_.forget_changes();
+    }
+
+    std::int64_t cost() {
+        const auto size = static_cast<std::int64_t>(c_.chosen().size());
+        return cycles_ ? size * one + structure_.find_cycles() * loose_cost : size * one;
+    }
+
+    // Returns whether the choice is another one now.
+    bool one_step(double heat) {
+        c_.forget_changes();
+        c_.bared().clear();
+        c_.spared().clear();
+        if (!ruin()) return false;
+        cover_again();
+        join();
+        if (cycles_) close(false);
+        thin_out_around();
+        const std::int64_t now = cost();
+        const auto worse = static_cast<double>(now - cost_) / static_cast<double>(one);
+        if (worse > 0 && dice_.unit() >= fading(worse / heat)) {
+            c_.back_to(0);
+            return false;
+        }
+        cost_ = now;
+        return true;
+    }
+
+    // Drops chosen columns around one of them, by links.
+    bool ruin() {
+        const auto& chosen = c_.chosen();
+        const std::int32_t seed =
+            chosen[idx(dice_.below(static_cast<std::int64_t>(chosen.size())))];
+        if (p_.fixed[idx(seed)] != 0) return false;
+        const std::size_t wanted = idx(2 + dice_.below(most_dropped - 1));
+        ++now_;
+        ball_.assign(1, seed);
+        met_[idx(seed)] = now_;
+        for (std::size_t i = 0; i < ball_.size() && ball_.size() < wanted; ++i) {
+            const auto& links = c_.links(ball_[i]);
+            const auto count = static_cast<std::int64_t>(links.size());
+            const std::int32_t turn = count > 0 ? dice_.below(count) : 0;
+            for (std::int64_t k = 0; k < count && ball_.size() < wanted; ++k) {
+                const std::int32_t n = links[idx((k + turn) % count)];
+                if (met_[idx(n)] == now_ || p_.fixed[idx(n)] != 0) continue;
+                met_[idx(n)] = now_;
+                ball_.push_back(n);
+            }
+        }
+        for (const std::int32_t c : ball_) c_.remove(c);
+        return true;
+    }
+
+    void choose(std::int32_t column) {
+        c_.add(column);
+        structure_.joins(column);
+    }
+
+    // Covers the bared rows: by their weight, which is more for rows that few columns cover, and by
+    // the parts that a column would join.
+    void cover_again() {
+        structure_.find_parts();
+        columns_.clear();
+        bare_ = 0;
+        for (const std::int32_t r : c_.bared()) {
+            if (c_.cover(r) > 0) continue;
+            ++bare_;
+            for (const std::int32_t c : p_.columns_of.of(r)) {
+                if (listed_[idx(c)] == 0) {
+                    listed_[idx(c)] = 1;
+                    columns_.push_back(c);
+                }
+                gain_[idx(c)] += weight_[idx(r)];
+            }
+        }
+        c_.bared().clear();
+        const double joining = dice_.unit() * 1.5 * static_cast<double>(one);
+        const double noise = dice_.unit() * 0.5;
+        while (bare_ > 0) {
+            double best = -1e300;
+            std::int32_t next = -1;
+            for (const std::int32_t c : columns_) {
+                if (gain_[idx(c)] == 0) continue;
+                const double gain = static_cast<double>(gain_[idx(c)]) * (1 - noise * dice_.unit());
+                if (gain + joining * 3 <= best) continue;
+                const double score = gain + joining * std::min(structure_.touches(c) - 1, 3);
+                if (score > best) {
+                    best = score;
+                    next = c;
+                }
+            }
+            for (const std::int32_t r : p_.rows_of.of(next)) {
+                if (c_.cover(r) > 0) continue;
+                --bare_;
+                for (const std::int32_t c : p_.columns_of.of(r)) gain_[idx(c)] -= weight_[idx(r)];
+            }
+            choose(next);
+        }
+        for (const std::int32_t c : columns_) {
+            listed_[idx(c)] = 0;
+            gain_[idx(c)] = 0;
+        }
+    }
+
+    // Joins the parts: from the lightest, by the fewest columns to another one.
+    void join() {
+        while (structure_.parts() > 1) {
+            std::int32_t part = -1;
+            for (const std::int32_t c : c_.chosen()) {
+                const std::int32_t mine = structure_.part(c);
+                if (part < 0 || structure_.weight(mine) < structure_.weight(part)) part = mine;
+            }
+            level_.clear();
+            for (const std::int32_t c : c_.chosen()) {
+                if (structure_.part(c) == part) level_.push_back(c);
+            }
+            std::int32_t c = way(1, [&](std::int32_t n) {
+                std::int32_t others = structure_.touches(n);
+                for (const std::int32_t s : c_.links(n)) {
+                    if (structure_.part(s) == part) {
+                        --others;
+                        break;
+                    }
+                }
+                return others;
+            });
+            assert(c >= 0);
+            for (; !c_.is_chosen(c); c = before_[idx(c)]) choose(c);
+        }
+    }
+
+    // Breadth first from level_ through columns that are not chosen, to one that is worth most at
+    // the first level where any is worth something; which is drawn by lot. -1 where none is. The
+    // way back is in before_.
+    template <class Worth>
+    std::int32_t way(std::int32_t least, const Worth& worth) {
+        ++now_;
+        for (const std::int32_t c : level_) {
+            met_[idx(c)] = now_;
+            before_[idx(c)] = -1;
+        }
+        while (!level_.empty()) {
+            next_.clear();
+            std::int32_t best = least - 1;
+            std::int32_t found = -1;
+            std::int32_t ties = 0;
+            for (const std::int32_t c : level_) {
+                for (const std::int32_t n : p_.near.of(c)) {
+                    if (met_[idx(n)] == now_ || c_.is_chosen(n)) continue;
+                    met_[idx(n)] = now_;
+                    before_[idx(n)] = c;
+                    next_.push_back(n);
+                    const std::int32_t value = worth(n);
+                    if (value < least || value < best) continue;
+                    if (value > best) ties = 0;
+                    best = value;
+                    if (dice_.below(++ties) == 0) found = n;
+                }
+            }
+            if (found >= 0) return found;
+            std::swap(level_, next_);
+        }
+        return -1;
+    }
+
+    // Puts columns on cycles, where that costs less than it is worth or at any cost.
+    void close(bool at_any_cost) {
+        std::int64_t loose = structure_.find_cycles();
+        if (loose == 0) return;
+        lost_.clear();
+        for (const std::int32_t c : c_.chosen()) {
+            if (structure_.is_loose(c)) lost_.push_back(c);
+        }
+        std::sort(lost_.begin(), lost_.end());
+        dice_.shuffle(lost_);
+        for (const std::int32_t v : lost_) {
+            if (structure_.on_cycle(v)) continue;
+            std::vector<std::int32_t> links = c_.links(v);
+            std::erase_if(links,
+                          [&](std::int32_t n) { return p_.block[idx(n)] != p_.block[idx(v)]; });
+            const auto count = static_cast<std::int64_t>(links.size());
+            ear_.clear();
+            if (at_any_cost) {
+                for (const std::int32_t n : links) find_ear(v, n);
+            } else {
+                find_ear(v, links[idx(dice_.below(count))]);
+            }
+            const std::size_t mark = c_.changes();
+            for (const std::int32_t c : ear_) c_.add(c);
+            const std::int64_t then = structure_.find_cycles();
+            const auto added = static_cast<std::int64_t>(ear_.size());
+            if (!at_any_cost && (loose - then) * loose_cost < added * one) {
+                c_.back_to(mark);
+                structure_.find_cycles();
+            } else {
+                loose = then;
+            }
+        }
+    }
+
+    // The fewest columns that join the two sides of a link that is on no cycle by another way; kept
+    // in ear_ where there are fewer than it holds, or it is empty.
+    void find_ear(std::int32_t a, std::int32_t b) {
+        sides_[0].assign(1, a);
+        sides_[1].assign(1, b);
+        // From both ends in turn, so that it costs what the lesser side holds.
+        ++now_;
+        met_[idx(a)] = met_[idx(b)] = now_;
+        std::size_t lesser = 0;
+        for (std::size_t i = 0;; ++i) {
+            lesser = 0;
+            while (lesser < 2 && i < sides_[lesser].size()) ++lesser;
+            if (lesser < 2) break;
+            for (std::vector<std::int32_t>& side : sides_) {
+                for (const std::int32_t n : c_.links(side[i])) {
+                    if (met_[idx(n)] == now_) continue;
+                    met_[idx(n)] = now_;
+                    side.push_back(n);
+                }
+            }
+        }
+        level_ = sides_[lesser];
+        ++now_side_;
+        for (const std::int32_t c : level_) side_[idx(c)] = now_side_;
+        std::int32_t c = way(1, [&](std::int32_t n) {
+            const std::vector<std::int32_t>& links = c_.links(n);
+            return std::any_of(links.begin(), links.end(),
+                               [&](std::int32_t s) { return side_[idx(s)] != now_side_; })
+                       ? 1
+                       : 0;
+        });
+        assert(c >= 0);
+        std::vector<std::int32_t>& ear = next_;
+        ear.clear();
+        for (; !c_.is_chosen(c); c = before_[idx(c)]) ear.push_back(c);
+        if (ear_.empty() || ear.size() < ear_.size()) ear_ = ear;
+    }
+
+    void thin_out_around() {
+        std::vector<std::int32_t>& list = spare_;
+        list.assign(c_.spared().begin(), c_.spared().end());
+        for (const std::int32_t c : c_.changed_since(0)) {
+            if (c_.is_chosen(c)) list.push_back(c);
+            for (const std::int32_t n : c_.links(c)) list.push_back(n);
+        }
+        thin_out(std::move(list));
+    }
+
+    // Takes out what is not needed.
+    void thin_out(std::vector<std::int32_t> list) {
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+        dice_.shuffle(list);
+        std::int64_t loose = cycles_ ? structure_.find_cycles() : 0;
+        for (const std::int32_t c : list) {
+            if (!c_.is_chosen(c) || p_.fixed[idx(c)] != 0 || c_.alone(c) > 0 ||
+                c_.chosen().size() < 2 || !structure_.can_go(c)) {
+                continue;
+            }
+            c_.remove(c);
+            if (!cycles_) continue;
+            const std::int64_t then = structure_.find_cycles();
+            if ((then - loose) * loose_cost >= one) {
+                c_.add(c);
+            } else {
+                loose = then;
+            }
+        }
+    }
+
+    static constexpr std::int32_t most_dropped = 15;
+    static constexpr std::int64_t loose_cost = 2 * one;
+
+    const Problem& p_;
+    Choosing c_;
+    Structure structure_;
+    Dice dice_;
+    std::int64_t steps_;
+    bool cycles_;
+    std::vector<std::int64_t> weight_;  // of rows
+    std::int64_t cost_ = 0;
+    std::int64_t best_cost_ = 0;
+    Choice best_;
+    std::int64_t bare_ = 0;  // rows
+    std::vector<std::int64_t> gain_;
+    std::vector<std::uint8_t> listed_;
+    std::vector<std::int32_t> columns_;  // that cover bared rows
+    std::vector<std::uint32_t> met_;
+    std::uint32_t now_ = 0;
+    std::vector<std::int32_t> before_;
+    std::vector<std::int32_t> ball_;
+    std::vector<std::int32_t> level_;
+    std::vector<std::int32_t> next_;
+    std::vector<std::int32_t> lost_;
+    std::vector<std::int32_t> ear_;
+    std::array<std::vector<std::int32_t>, 2> sides_;
+    std::vector<std::uint32_t> side_;
+    std::uint32_t now_side_ = 0;
+    std::vector<std::int32_t> spare_;
+};
+
+}  // namespace
+
+Choice improve(const Problem& problem, const Choice& start, const ImproveOptions& options) {
+    return Improver(problem, start, options).run();
+}
+
+}  // namespace vfplan

@@ -1,0 +1,23 @@
+// Better plans by ruin and recreate (docs/planning.md).
+#pragma once
+
+#include <cstdint>
+
+#include "engine/search/problem.h"
+
+namespace vfplan {
+
+struct ImproveOptions {
+    std::int64_t steps = 0;
+    std::uint64_t seed = 0;
+};
+
+// Drops a ball of stations, covers what they covered anew by rare rows and parts touched, joins the
+// parts by shortest paths, takes out what is not needed any more, and keeps the result when it is
+// not worse, or now and then a little; `steps` times. Fewer stations off a cycle come first where
+// the problem counts cycles, then fewer stations. Returns the best plan that was met, with no
+// station in it that could just go: never worse than `start`, which is a plan. Follows from its
+// arguments alone. Thread-safe.
+Choice improve(const Problem& problem, const Choice& start, const ImproveOptions& options);
+
+}  // namespace vfplan
