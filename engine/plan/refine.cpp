@@ -4,8 +4,8 @@
 
 #include "engine/graphs/cuts.h"
 #include "engine/plan/network_problem.h"
-#include "engine/search/improve.h"
 #include "engine/search/reduce.h"
+#include "engine/search/search.h"
 
 namespace vfplan {
 namespace {
@@ -28,13 +28,12 @@ Choice reduced_choice(const Reduced& reduced, std::int32_t columns, const Choice
     return out;
 }
 
-Choice improved(const Problem& whole, Reduce what, const Choice& start, std::int64_t effort,
-                std::uint64_t seed) {
+Choice improved(const Threads& threads, const Problem& whole, Reduce what, const Choice& start,
+                const SearchOptions& options) {
     const Reduced reduced = reduce(whole, what);
     const Choice from = reduced_choice(reduced, whole.columns(), start);
-    const auto steps = effort * static_cast<std::int64_t>(from.size());
     Choice out;
-    for (const std::int32_t c : improve(reduced.problem, from, {steps, seed})) {
+    for (const std::int32_t c : search(threads, reduced.problem, from, options)) {
         out.push_back(reduced.column[idx(c)]);
     }
     return out;
@@ -46,8 +45,8 @@ Chosen candidates_of(const Network& network, const Choice& choice) {
     return out;
 }
 
-void refine_one(const PlanInput& in, const PlanOptions& options, Problem problem,
-                std::uint64_t seed, Network& network) {
+void refine_one(const Threads& threads, const PlanInput& in, const PlanOptions& options,
+                Problem problem, std::uint64_t seed, Network& network) {
     Choice choice;
     for (const std::int32_t c : network.chosen) {
         choice.push_back(static_cast<std::int32_t>(
@@ -55,12 +54,12 @@ void refine_one(const PlanInput& in, const PlanOptions& options, Problem problem
             network.members.begin()));
     }
     std::sort(choice.begin(), choice.end());
-    choice = improved(problem, Reduce::rows_and_columns, choice, options.effort, seed);
+    choice = improved(threads, problem, Reduce::rows_and_columns, choice, {options.effort, seed});
     network.connected = candidates_of(network, choice);
     if (options.loops && choice.size() > 1) {
         problem.block = find_cuts(induced(in.graph, network.members)).block;
         problem.loose.assign(idx(problem.columns()), 1);
-        choice = improved(problem, Reduce::rows, choice, options.effort, seed);
+        choice = improved(threads, problem, Reduce::rows, choice, {options.effort, seed});
     }
     network.chosen = candidates_of(network, choice);
 }
@@ -75,7 +74,7 @@ void refine(const Threads& threads, const PlanInput& in, const PlanOptions& opti
             NetworkProblems problems(in);
             for (std::int64_t n = from; n < to; ++n) {
                 Network& network = networks[idx(n)];
-                refine_one(in, options,
+                refine_one(threads, in, options,
                            problems.of(network.members, owner, static_cast<std::int32_t>(n), fixed),
                            static_cast<std::uint64_t>(n), network);
             }

@@ -31,6 +31,7 @@ public:
           dice_(options.seed),
           steps_(options.steps),
           cycles_(!problem.loose.empty()),
+          finish_(options.finish),
           gain_(idx(p_.columns()), 0),
           listed_(idx(p_.columns()), 0),
           met_(idx(p_.columns()), 0),
@@ -42,8 +43,13 @@ public:
         }
     }
 
-    Choice run() {
+    Choice close_all() {
         if (cycles_) close(true);
+        return c_.choice();
+    }
+
+    Choice run() {
+        if (cycles_) close(finish_);
         thin_out(c_.choice());
         c_.forget_changes();
         best_ = c_.choice();
@@ -57,7 +63,7 @@ public:
                 best_cost_ = cost_;
             }
         }
-        if (!cycles_) return best_;
+        if (!cycles_ || !finish_) return best_;
         take(best_);
         close(true);
         thin_out(c_.choice());
@@ -99,9 +105,12 @@ private:
     // Drops chosen columns around one of them, by links.
     bool ruin() {
         const auto& chosen = c_.chosen();
-        const std::int32_t seed =
-            chosen[idx(dice_.below(static_cast<std::int64_t>(chosen.size())))];
-        if (p_.fixed[idx(seed)] != 0) return false;
+        std::int32_t seed = -1;
+        for (int tries = 0; seed < 0 && tries < 32; ++tries) {
+            const auto any = dice_.below(static_cast<std::int64_t>(chosen.size()));
+            if (p_.fixed[idx(chosen[idx(any)])] == 0) seed = chosen[idx(any)];
+        }
+        if (seed < 0) return false;
         const std::size_t wanted = idx(2 + dice_.below(most_dropped - 1));
         ++now_;
         ball_.assign(1, seed);
@@ -152,8 +161,11 @@ private:
             for (const std::int32_t c : columns_) {
                 if (gain_[idx(c)] == 0) continue;
                 const double gain = static_cast<double>(gain_[idx(c)]) * (1 - noise * dice_.unit());
-                if (gain + joining * 3 <= best) continue;
-                const double score = gain + joining * std::min(structure_.touches(c) - 1, 3);
+                const auto links = static_cast<std::int32_t>(c_.links(c).size());
+                const std::int32_t most = std::min({links, structure_.parts(), 4}) - 1;
+                if (gain + joining * most <= best) continue;
+                const std::int32_t joined = most > 0 ? structure_.touches(c) - 1 : most;
+                const double score = gain + joining * std::min(joined, most);
                 if (score > best) {
                     best = score;
                     next = c;
@@ -246,8 +258,10 @@ private:
         for (const std::int32_t v : lost_) {
             if (structure_.on_cycle(v)) continue;
             std::vector<std::int32_t> links = c_.links(v);
-            std::erase_if(links,
-                          [&](std::int32_t n) { return p_.block[idx(n)] != p_.block[idx(v)]; });
+            if (p_.closable.empty() || p_.closable[idx(v)] == 0) {
+                std::erase_if(links,
+                              [&](std::int32_t n) { return p_.block[idx(n)] != p_.block[idx(v)]; });
+            }
             const auto count = static_cast<std::int64_t>(links.size());
             ear_.clear();
             if (at_any_cost) {
@@ -255,6 +269,7 @@ private:
             } else {
                 find_ear(v, links[idx(dice_.below(count))]);
             }
+            if (ear_.empty()) continue;
             const std::size_t mark = c_.changes();
             for (const std::int32_t c : ear_) c_.add(c);
             const std::int64_t then = structure_.find_cycles();
@@ -299,7 +314,7 @@ private:
                        ? 1
                        : 0;
         });
-        assert(c >= 0);
+        if (c < 0) return;  // in a window: only outside of it
         std::vector<std::int32_t>& ear = next_;
         ear.clear();
         for (; !c_.is_chosen(c); c = before_[idx(c)]) ear.push_back(c);
@@ -347,6 +362,7 @@ private:
     Dice dice_;
     std::int64_t steps_;
     bool cycles_;
+    bool finish_;
     std::vector<std::int64_t> weight_;  // of rows
     std::int64_t cost_ = 0;
     std::int64_t best_cost_ = 0;
@@ -373,6 +389,10 @@ private:
 
 Choice improve(const Problem& problem, const Choice& start, const ImproveOptions& options) {
     return Improver(problem, start, options).run();
+}
+
+Choice close_all(const Problem& problem, const Choice& start) {
+    return Improver(problem, start, {}).close_all();
 }
 
 }  // namespace vfplan

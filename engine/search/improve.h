@@ -10,6 +10,9 @@ namespace vfplan {
 struct ImproveOptions {
     std::int64_t steps = 0;
     std::uint64_t seed = 0;
+    // Closes loops at any cost in the end, so that nothing stays loose that the problem could
+    // close.
+    bool finish = true;
 };
 
 // Drops a ball of stations, covers what they covered anew by rare rows and parts touched, joins the
@@ -19,5 +22,9 @@ struct ImproveOptions {
 // station in it that could just go: never worse than `start`, which is a plan. Follows from its
 // arguments alone. Thread-safe.
 Choice improve(const Problem& problem, const Choice& start, const ImproveOptions& options);
+
+// Only that: adds the fewest columns for each loose one that put it on a cycle. No more where
+// cycles do not count.
+Choice close_all(const Problem& problem, const Choice& start);
 
 }  // namespace vfplan

@@ -21,6 +21,9 @@ struct Problem {
     std::vector<std::int32_t> block;
     // Likewise: how many stations a column is, when those off every cycle are counted.
     std::vector<std::int32_t> loose;
+    // Likewise: 1 where some link of the column could be on a cycle whatever else is chosen. May be
+    // empty: none.
+    std::vector<std::uint8_t> closable;
 
     std::int32_t columns() const { return rows_of.size(); }
     std::int32_t rows() const { return columns_of.size(); }

@@ -103,6 +103,7 @@ bool Structure::can_go(std::int32_t column) {
 
 bool Structure::is_loose(std::int32_t column) const {
     if (on_cycle(column) || p_.loose[idx(column)] == 0) return false;
+    if (!p_.closable.empty() && p_.closable[idx(column)] != 0) return true;
     const std::vector<std::int32_t>& links = c_.links(column);
     return std::any_of(links.begin(), links.end(),
                        [&](std::int32_t n) { return p_.block[idx(n)] == p_.block[idx(column)]; });
