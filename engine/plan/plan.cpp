@@ -6,7 +6,7 @@
 #include "engine/graphs/cuts.h"
 #include "engine/plan/greedy.h"
 #include "engine/plan/loops.h"
-#include "engine/plan/prune.h"
+#include "engine/plan/order.h"
 #include "engine/plan/refine.h"
 #include "kernels/index.h"
 
@@ -45,12 +45,6 @@ std::vector<std::vector<std::int32_t>> ranked_components(const PlanInput& in) {
     return out;
 }
 
-void count_coverage(const PlanInput& in, const Chosen& chosen, std::vector<std::int32_t>& count) {
-    for (const std::int32_t c : chosen) {
-        for (const std::int32_t p : in.rows.row(c)) ++count[idx(p)];
-    }
-}
-
 // Stations on no cycle, in networks of more than one.
 std::int64_t stations_off_cycle(const PlanInput& in, const std::vector<Network>& networks,
                                 Chosen Network::*plan) {
@@ -64,10 +58,13 @@ std::int64_t stations_off_cycle(const PlanInput& in, const std::vector<Network>&
     return std::count(cuts.on_cycle.begin(), cuts.on_cycle.end(), 0);
 }
 
-void add_stations(const PlanInput& in, const std::vector<Network>& networks, Plan& plan) {
+// `searched`: not in the order of choice.
+void add_stations(const PlanInput& in, const std::vector<Network>& networks, bool searched,
+                  Workspace& work, Plan& plan) {
     std::vector<std::uint8_t> covered(in.piece_length_m.size(), 0);
     for (std::size_t network = 0; network < networks.size(); ++network) {
-        for (const std::int32_t c : networks[network].chosen) {
+        const Chosen& chosen = networks[network].chosen;
+        for (const std::int32_t c : searched ? in_order(in, chosen, covered, work) : chosen) {
             Station station;
             station.candidate = c;
             station.network = static_cast<std::int32_t>(network);
@@ -145,12 +142,6 @@ Plan make_plan(const Threads& threads, const PlanInput& in, const PlanOptions& o
             if (options.loops) n.chosen = close_loops(in, n.chosen, work);
         }
     } else {
-        std::vector<std::int32_t> count(in.piece_length_m.size(), 0);
-        for (Network& n : networks) {
-            // With the networks before it, so that the main one never leans on a lesser one.
-            count_coverage(in, n.chosen, count);
-            n.chosen = prune(in, n.chosen, fixed, count, work);
-        }
         refine(threads, in, options, owner, fixed, networks);
     }
     for (const Network& n : networks) {
@@ -158,7 +149,7 @@ Plan make_plan(const Threads& threads, const PlanInput& in, const PlanOptions& o
     }
     report.off_cycle_before = stations_off_cycle(in, networks, &Network::connected);
     report.off_cycle_after = stations_off_cycle(in, networks, &Network::chosen);
-    add_stations(in, networks, plan);
+    add_stations(in, networks, options.method != PlanMethod::greedy, work, plan);
     add_links(in, plan);
     return plan;
 }

@@ -6,7 +6,6 @@
 
 #include "engine/graphs/cycles.h"
 #include "engine/graphs/graph.h"
-#include "engine/graphs/separation.h"
 #include "kernels/candidate.h"
 #include "kernels/overlap_rows.h"
 
@@ -34,7 +33,6 @@ struct Workspace {
           step(mark.size(), 0),
           hops(mark.size(), far_away),
           before(mark.size(), -1),
-          chosen(graph),
           stations(graph) {}
 
     static constexpr std::int32_t far_away = 0x7fffffff;
@@ -43,7 +41,6 @@ struct Workspace {
     std::vector<double> step;          // 0
     std::vector<std::int32_t> hops;    // far_away
     std::vector<std::int32_t> before;  // -1
-    Separation chosen;                 // of the networks pruned so far
     Cycles stations;                   // of the networks whose loops are closed
 };
 

@@ -8,7 +8,6 @@
 #include "engine/plan/greedy.h"
 #include "engine/plan/loops.h"
 #include "engine/plan/piece_places.h"
-#include "engine/plan/prune.h"
 #include "engine/plan/workspace.h"
 
 namespace vfplan::test {
@@ -59,11 +58,6 @@ inline Chosen greedy_alone(const HandMade& h, const std::vector<std::int32_t>& m
                            std::vector<std::uint8_t>& wanted) {
     Workspace work(h.graph);
     return choose_greedily(h.input(), members, forced, wanted, work);
-}
-inline Chosen prune_alone(const HandMade& h, const Chosen& chosen,
-                          const std::vector<std::uint8_t>& kept, std::vector<std::int32_t>& count) {
-    Workspace work(h.graph);
-    return prune(h.input(), chosen, kept, count, work);
 }
 inline Chosen loops_alone(const HandMade& h, const Chosen& chosen) {
     Workspace work(h.graph);
