@@ -28,7 +28,7 @@ Choice reduced_choice(const Reduced& reduced, std::int32_t columns, const Choice
     return out;
 }
 
-Choice improved(const Threads& threads, const Problem& whole, Reduce what, const Choice& start,
+Choice searched(const Threads& threads, const Problem& whole, Reduce what, const Choice& start,
                 const SearchOptions& options) {
     const Reduced reduced = reduce(whole, what);
     const Choice from = reduced_choice(reduced, whole.columns(), start);
@@ -39,14 +39,9 @@ Choice improved(const Threads& threads, const Problem& whole, Reduce what, const
     return out;
 }
 
-Chosen candidates_of(const Network& network, const Choice& choice) {
-    Chosen out;
-    for (const std::int32_t c : choice) out.push_back(network.members[idx(c)]);
-    return out;
-}
-
-void refine_one(const Threads& threads, const PlanInput& in, const PlanOptions& options,
-                Problem problem, std::uint64_t seed, Network& network) {
+// A network's better plan, where loops count or do not.
+Chosen refined(const Threads& threads, const PlanInput& in, const SearchOptions& options,
+               Problem problem, bool loops, const Network& network) {
     Choice choice;
     for (const std::int32_t c : network.chosen) {
         choice.push_back(static_cast<std::int32_t>(
@@ -54,14 +49,16 @@ void refine_one(const Threads& threads, const PlanInput& in, const PlanOptions& 
             network.members.begin()));
     }
     std::sort(choice.begin(), choice.end());
-    choice = improved(threads, problem, Reduce::rows_and_columns, choice, {options.effort, seed});
-    network.connected = candidates_of(network, choice);
-    if (options.loops && choice.size() > 1) {
+    if (loops) {
         problem.block = find_cuts(induced(in.graph, network.members)).block;
         problem.loose.assign(idx(problem.columns()), 1);
-        choice = improved(threads, problem, Reduce::rows, choice, {options.effort, seed});
     }
-    network.chosen = candidates_of(network, choice);
+    Chosen out;
+    for (const std::int32_t c : searched(
+             threads, problem, loops ? Reduce::rows : Reduce::rows_and_columns, choice, options)) {
+        out.push_back(network.members[idx(c)]);
+    }
+    return out;
 }
 
 }  // namespace
@@ -69,16 +66,29 @@ void refine_one(const Threads& threads, const PlanInput& in, const PlanOptions& 
 void refine(const Threads& threads, const PlanInput& in, const PlanOptions& options,
             const std::vector<std::int32_t>& owner, const std::vector<std::uint8_t>& fixed,
             std::vector<Network>& networks) {
+    // Both plans of a network start from the same one, so that they can be searched at once.
+    const std::int64_t plans = options.loops ? 2 : 1;
+    std::vector<Chosen> found(networks.size() * idx(plans));
     threads.for_each(
-        static_cast<std::int64_t>(networks.size()), 1, [&](std::int64_t from, std::int64_t to) {
+        static_cast<std::int64_t>(found.size()), 1, [&](std::int64_t from, std::int64_t to) {
             NetworkProblems problems(in);
-            for (std::int64_t n = from; n < to; ++n) {
-                Network& network = networks[idx(n)];
-                refine_one(threads, in, options,
-                           problems.of(network.members, owner, static_cast<std::int32_t>(n), fixed),
-                           static_cast<std::uint64_t>(n), network);
+            for (std::int64_t task = from; task < to; ++task) {
+                const std::int64_t n = task / plans;
+                found[idx(task)] =
+                    refined(threads, in, {options.effort, static_cast<std::uint64_t>(n)},
+                            problems.of(networks[idx(n)].members, owner,
+                                        static_cast<std::int32_t>(n), fixed),
+                            task % plans > 0, networks[idx(n)]);
             }
         });
+    for (std::size_t n = 0; n < networks.size(); ++n) {
+        const std::size_t first = n * idx(plans);
+        networks[n].chosen = std::move(found[first + idx(plans) - 1]);
+        networks[n].connected = networks[n].chosen;
+        if (options.loops && found[first].size() < networks[n].connected.size()) {
+            networks[n].connected = std::move(found[first]);
+        }
+    }
 }
 
 }  // namespace vfplan

@@ -1,12 +1,13 @@
 #include "engine/search/improve.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 
 #include "engine/search/choosing.h"
 #include "engine/search/dice.h"
+#include "engine/search/ears.h"
 #include "engine/search/structure.h"
+#include "engine/search/ways.h"
 
 namespace vfplan {
 namespace {
@@ -29,14 +30,14 @@ public:
           c_(problem),
           structure_(problem, c_),
           dice_(options.seed),
+          ways_(problem, c_, dice_),
+          ears_(problem, c_, structure_, ways_, dice_),
           steps_(options.steps),
           cycles_(!problem.loose.empty()),
           finish_(options.finish),
           gain_(idx(p_.columns()), 0),
           listed_(idx(p_.columns()), 0),
-          met_(idx(p_.columns()), 0),
-          before_(idx(p_.columns()), -1),
-          side_(idx(p_.columns()), 0) {
+          met_(idx(p_.columns()), 0) {
         for (const std::int32_t c : start) c_.add(c);
         for (std::int32_t r = 0; r < p_.rows(); ++r) {
             weight_.push_back(one / static_cast<std::int64_t>(p_.columns_of.of(r).size()));
@@ -44,12 +45,12 @@ public:
     }
 
     Choice close_all() {
-        if (cycles_) close(true);
+        if (cycles_) ears_.close(Ears::any_cost);
         return c_.choice();
     }
 
     Choice run() {
-        if (cycles_) close(finish_);
+        if (cycles_) loose_ = ears_.close(finish_ ? Ears::any_cost : worth);
         thin_out(c_.choice());
         c_.forget_changes();
         best_ = c_.choice();
@@ -65,7 +66,7 @@ public:
         }
         if (!cycles_ || !finish_) return best_;
         take(best_);
-        close(true);
+        loose_ = ears_.close(Ears::any_cost);
         thin_out(c_.choice());
         return c_.choice();
     }
@@ -77,9 +78,9 @@ private:
         c_.forget_changes();
     }
 
-    std::int64_t cost() {
+    std::int64_t cost() const {
         const auto size = static_cast<std::int64_t>(c_.chosen().size());
-        return cycles_ ? size * one + structure_.find_cycles() * loose_cost : size * one;
+        return size * one + loose_ * loose_cost;
     }
 
     // Returns whether the choice is another one now.
@@ -90,7 +91,7 @@ private:
         if (!ruin()) return false;
         cover_again();
         join();
-        if (cycles_) close(false);
+        if (cycles_) loose_ = ears_.close(worth);
         thin_out_around();
         const std::int64_t now = cost();
         const auto worse = static_cast<double>(now - cost_) / static_cast<double>(one);
@@ -192,133 +193,20 @@ private:
                 const std::int32_t mine = structure_.part(c);
                 if (part < 0 || structure_.weight(mine) < structure_.weight(part)) part = mine;
             }
-            level_.clear();
+            members_.clear();
             for (const std::int32_t c : c_.chosen()) {
-                if (structure_.part(c) == part) level_.push_back(c);
+                if (structure_.part(c) == part) members_.push_back(c);
             }
-            std::int32_t c = way(1, [&](std::int32_t n) {
-                std::int32_t others = structure_.touches(n);
-                for (const std::int32_t s : c_.links(n)) {
-                    if (structure_.part(s) == part) {
-                        --others;
-                        break;
-                    }
-                }
-                return others;
-            });
-            assert(c >= 0);
-            for (; !c_.is_chosen(c); c = before_[idx(c)]) choose(c);
-        }
-    }
-
-    // Breadth first from level_ through columns that are not chosen, to one that is worth most at
-    // the first level where any is worth something; which is drawn by lot. -1 where none is. The
-    // way back is in before_.
-    template <class Worth>
-    std::int32_t way(std::int32_t least, const Worth& worth) {
-        ++now_;
-        for (const std::int32_t c : level_) {
-            met_[idx(c)] = now_;
-            before_[idx(c)] = -1;
-        }
-        while (!level_.empty()) {
-            next_.clear();
-            std::int32_t best = least - 1;
-            std::int32_t found = -1;
-            std::int32_t ties = 0;
-            for (const std::int32_t c : level_) {
-                for (const std::int32_t n : p_.near.of(c)) {
-                    if (met_[idx(n)] == now_ || c_.is_chosen(n)) continue;
-                    met_[idx(n)] = now_;
-                    before_[idx(n)] = c;
-                    next_.push_back(n);
-                    const std::int32_t value = worth(n);
-                    if (value < least || value < best) continue;
-                    if (value > best) ties = 0;
-                    best = value;
-                    if (dice_.below(++ties) == 0) found = n;
-                }
-            }
-            if (found >= 0) return found;
-            std::swap(level_, next_);
-        }
-        return -1;
-    }
-
-    // Puts columns on cycles, where that costs less than it is worth or at any cost.
-    void close(bool at_any_cost) {
-        std::int64_t loose = structure_.find_cycles();
-        if (loose == 0) return;
-        lost_.clear();
-        for (const std::int32_t c : c_.chosen()) {
-            if (structure_.is_loose(c)) lost_.push_back(c);
-        }
-        std::sort(lost_.begin(), lost_.end());
-        dice_.shuffle(lost_);
-        for (const std::int32_t v : lost_) {
-            if (structure_.on_cycle(v)) continue;
-            std::vector<std::int32_t> links = c_.links(v);
-            if (p_.closable.empty() || p_.closable[idx(v)] == 0) {
-                std::erase_if(links,
-                              [&](std::int32_t n) { return p_.block[idx(n)] != p_.block[idx(v)]; });
-            }
-            const auto count = static_cast<std::int64_t>(links.size());
-            ear_.clear();
-            if (at_any_cost) {
-                for (const std::int32_t n : links) find_ear(v, n);
-            } else {
-                find_ear(v, links[idx(dice_.below(count))]);
-            }
-            if (ear_.empty()) continue;
-            const std::size_t mark = c_.changes();
-            for (const std::int32_t c : ear_) c_.add(c);
-            const std::int64_t then = structure_.find_cycles();
-            const auto added = static_cast<std::int64_t>(ear_.size());
-            if (!at_any_cost && (loose - then) * loose_cost < added * one) {
-                c_.back_to(mark);
-                structure_.find_cycles();
-            } else {
-                loose = then;
+            for (const std::int32_t c : ways_.from(members_, [&](std::int32_t n) {
+                     const std::vector<std::int32_t>& links = c_.links(n);
+                     const bool mine = std::any_of(links.begin(), links.end(), [&](std::int32_t s) {
+                         return structure_.part(s) == part;
+                     });
+                     return structure_.touches(n) - (mine ? 1 : 0);
+                 })) {
+                choose(c);
             }
         }
-    }
-
-    // The fewest columns that join the two sides of a link that is on no cycle by another way; kept
-    // in ear_ where there are fewer than it holds, or it is empty.
-    void find_ear(std::int32_t a, std::int32_t b) {
-        sides_[0].assign(1, a);
-        sides_[1].assign(1, b);
-        // From both ends in turn, so that it costs what the lesser side holds.
-        ++now_;
-        met_[idx(a)] = met_[idx(b)] = now_;
-        std::size_t lesser = 0;
-        for (std::size_t i = 0;; ++i) {
-            lesser = 0;
-            while (lesser < 2 && i < sides_[lesser].size()) ++lesser;
-            if (lesser < 2) break;
-            for (std::vector<std::int32_t>& side : sides_) {
-                for (const std::int32_t n : c_.links(side[i])) {
-                    if (met_[idx(n)] == now_) continue;
-                    met_[idx(n)] = now_;
-                    side.push_back(n);
-                }
-            }
-        }
-        level_ = sides_[lesser];
-        ++now_side_;
-        for (const std::int32_t c : level_) side_[idx(c)] = now_side_;
-        std::int32_t c = way(1, [&](std::int32_t n) {
-            const std::vector<std::int32_t>& links = c_.links(n);
-            return std::any_of(links.begin(), links.end(),
-                               [&](std::int32_t s) { return side_[idx(s)] != now_side_; })
-                       ? 1
-                       : 0;
-        });
-        if (c < 0) return;  // in a window: only outside of it
-        std::vector<std::int32_t>& ear = next_;
-        ear.clear();
-        for (; !c_.is_chosen(c); c = before_[idx(c)]) ear.push_back(c);
-        if (ear_.empty() || ear.size() < ear_.size()) ear_ = ear;
     }
 
     void thin_out_around() {
@@ -326,7 +214,10 @@ private:
         list.assign(c_.spared().begin(), c_.spared().end());
         for (const std::int32_t c : c_.changed_since(0)) {
             if (c_.is_chosen(c)) list.push_back(c);
-            for (const std::int32_t n : c_.links(c)) list.push_back(n);
+            // Where cycles count, most of what covers nothing alone closes one, and to ask is dear.
+            for (const std::int32_t n : c_.links(c)) {
+                if (!cycles_ || dice_.below(asked_in) == 0) list.push_back(n);
+            }
         }
         thin_out(std::move(list));
     }
@@ -336,7 +227,6 @@ private:
         std::sort(list.begin(), list.end());
         list.erase(std::unique(list.begin(), list.end()), list.end());
         dice_.shuffle(list);
-        std::int64_t loose = cycles_ ? structure_.find_cycles() : 0;
         for (const std::int32_t c : list) {
             if (!c_.is_chosen(c) || p_.fixed[idx(c)] != 0 || c_.alone(c) > 0 ||
                 c_.chosen().size() < 2 || !structure_.can_go(c)) {
@@ -345,25 +235,30 @@ private:
             c_.remove(c);
             if (!cycles_) continue;
             const std::int64_t then = structure_.find_cycles();
-            if ((then - loose) * loose_cost >= one) {
+            if ((then - loose_) * loose_cost >= one) {
                 c_.add(c);
             } else {
-                loose = then;
+                loose_ = then;
             }
         }
     }
 
     static constexpr std::int32_t most_dropped = 15;
-    static constexpr std::int64_t loose_cost = 2 * one;
+    static constexpr std::int32_t asked_in = 4;
+    static constexpr double worth = 2;  // stations, of one that is not loose any more
+    static constexpr auto loose_cost = static_cast<std::int64_t>(worth) * one;
 
     const Problem& p_;
     Choosing c_;
     Structure structure_;
     Dice dice_;
+    Ways ways_;
+    Ears ears_;
     std::int64_t steps_;
     bool cycles_;
     bool finish_;
     std::vector<std::int64_t> weight_;  // of rows
+    std::int64_t loose_ = 0;            // stations, since the last close() or thin_out()
     std::int64_t cost_ = 0;
     std::int64_t best_cost_ = 0;
     Choice best_;
@@ -373,15 +268,8 @@ private:
     std::vector<std::int32_t> columns_;  // that cover bared rows
     std::vector<std::uint32_t> met_;
     std::uint32_t now_ = 0;
-    std::vector<std::int32_t> before_;
     std::vector<std::int32_t> ball_;
-    std::vector<std::int32_t> level_;
-    std::vector<std::int32_t> next_;
-    std::vector<std::int32_t> lost_;
-    std::vector<std::int32_t> ear_;
-    std::array<std::vector<std::int32_t>, 2> sides_;
-    std::vector<std::uint32_t> side_;
-    std::uint32_t now_side_ = 0;
+    std::vector<std::int32_t> members_;  // of a part
     std::vector<std::int32_t> spare_;
 };
 
