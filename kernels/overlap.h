@@ -119,4 +119,24 @@ struct OverlapRule {
     }
 };
 
+// The largest threshold of another ratio at which every pair that a rule finds enough is enough by
+// that ratio as well; 0 where there is none. By length, with m for mean_len: union_len is
+// m / (2 - m), and min_len is at least m.
+inline double implied_threshold(const OverlapRule& rule, OverlapRatio ratio) {
+    if (rule.ratio == ratio) return rule.threshold;
+    const double mean = rule.ratio == OverlapRatio::mean_len ? rule.threshold
+                        : rule.ratio == OverlapRatio::union_len
+                            ? 2 * rule.threshold / (1 + rule.threshold)
+                            : 0;
+    switch (ratio) {
+        case OverlapRatio::min_len:
+        case OverlapRatio::mean_len:
+            return mean;
+        case OverlapRatio::union_len:
+            return mean / (2 - mean);
+        default:
+            return 0;
+    }
+}
+
 }  // namespace vfplan

@@ -213,7 +213,9 @@ int dispatch(int argc, char** argv, const Ranks& ranks) {
     CLI::App* plan = app.add_subcommand(
         "plan", "Plans again from a run directory's tables alone, without geometry");
     plan->add_option("DIR", s.dir, "Run directory")->required();
-    add_sets(*plan, s, "Replaces plan.method, plan.loops, overlap.* or output.*");
+    add_sets(*plan, s,
+             "Replaces plan.method, plan.loops, plan.effort, overlap.* (no higher threshold) or "
+             "output.*");
     add_common(*plan, s);
     CLI::App* check = app.add_subcommand(
         "verify", "Looks again from every station with the exact kernel; says yes or no");

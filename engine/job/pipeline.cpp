@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/config/parameters.h"
 #include "engine/job/claim.h"
@@ -110,6 +111,23 @@ std::string summary_before_plan(const RunDir& dir, const Config& config, Progres
                        tables.pieces.size());
 }
 
+// Candidates were placed so that neighbours overlap enough by the rule of the tables; a plan by a
+// rule that asks for more would fall apart where a run would have put more candidates.
+void check_overlap(const Config& tables, const Config& plan, const std::filesystem::path& dir) {
+    const auto rule = [](const Config& c) { return plan_options(c).overlap; };
+    const double most = implied_threshold(rule(tables), rule(plan).ratio);
+    if (rule(plan).threshold <= most + 1e-12) return;
+    throw UsageError(fmt::format(
+        "overlap {} {}: the candidates of {} were placed for {} {}, so that a plan could fall "
+        "apart "
+        "where there would be more of them; {}, or use run with this overlap and another --out",
+        name_of(rule(plan).ratio), rule(plan).threshold, dir.string(), name_of(rule(tables).ratio),
+        rule(tables).threshold,
+        most > 0 ? fmt::format("plan takes {} up to {:.3f} here", name_of(rule(plan).ratio),
+                               std::floor(most * 1000) / 1000)
+                 : fmt::format("plan takes other ratios here, not {}", name_of(rule(plan).ratio))));
+}
+
 }  // namespace
 
 std::string run_job(const Config& config, const JobOptions& options, const Ranks& ranks,
@@ -159,6 +177,7 @@ std::string plan_again(const std::filesystem::path& path, const std::vector<std:
     const Threads threads(thread_count);
     const RunDir dir(path);
     const Config config = dir.config(overrides);
+    check_overlap(dir.config(), config, path);
     const FolderLock lock(dir, true);
     return plan_of(dir, config, threads, progress);
 }

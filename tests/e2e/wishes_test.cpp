@@ -1,4 +1,6 @@
 // What people ask of a plan beyond the defaults, and of a run that was stopped.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <csignal>
 
@@ -95,17 +97,36 @@ TEST_F(Wishes, NoFilesOfThePlanBefore) {
     }
 }
 
-TEST_F(Wishes, StricterOverlapKeepsTheThreshold) {
+// The candidates were placed for mean_len 0.3: what that implies can be planned again.
+TEST_F(Wishes, PlanTakesOtherOverlapsAsFarAsTheCandidatesWerePlacedForThem) {
     vfplan_expect(0, job("run", {}));
-    for (const char* ratio : {"min_len", "mean_len", "union_len", "union_ang", "mean_ang"}) {
-        vfplan_expect(0, {"plan", scratch / "run", "--quiet", "--set",
-                          std::string("overlap.ratio=") + ratio, "--set", "overlap.threshold=0.4"});
+    const auto plan = [&](const std::string& ratio, const std::string& threshold) {
+        return Words{"plan",
+                     scratch / "run",
+                     "--quiet",
+                     "--set",
+                     "overlap.ratio=" + ratio,
+                     "--set",
+                     "overlap.threshold=" + threshold};
+    };
+    for (const auto& [ratio, threshold] :
+         {std::pair("min_len", 0.3), {"mean_len", 0.25}, {"union_len", 0.17}}) {
+        vfplan_expect(0, plan(ratio, fmt::format("{}", threshold)));
         for (const double o : read_csv(scratch / "run/links.csv").numbers("overlap")) {
-            EXPECT_GE(o + 1e-6, 0.4) << ratio;
+            EXPECT_GE(o + 1e-6, threshold) << ratio;
         }
         vfplan_expect(0, {"verify", scratch / "run"});
         EXPECT_EQ(read_json(scratch / "run/summary.json")["overlap"]["ratio"], ratio);
     }
+    const auto bytes = lasting_bytes(scratch / "run");
+    for (const auto& [ratio, threshold] : {std::pair("min_len", "0.31"),
+                                           {"mean_len", "0.4"},
+                                           {"union_len", "0.2"},
+                                           {"mean_ang", "0.1"}}) {
+        const Output o = vfplan_expect(2, plan(ratio, threshold));
+        EXPECT_NE(o.err.find("placed for mean_len 0.3"), std::string::npos) << o.err;
+    }
+    EXPECT_EQ(lasting_bytes(scratch / "run"), bytes);
 }
 
 class Stopped : public Wishes {};

@@ -195,5 +195,36 @@ TEST(OverlapRule, ATieIsEnough) {
     EXPECT_FALSE(none.enough(0));
 }
 
+TEST(Overlap, ImpliedThresholdsHoldAndAreTheLargest) {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> number(0, 1);
+    const std::array by_length = {OverlapRatio::min_len, OverlapRatio::mean_len,
+                                  OverlapRatio::union_len};
+    std::map<std::pair<OverlapRatio, OverlapRatio>, double> least;  // beyond what is implied
+    for (int i = 0; i < 200000; ++i) {
+        const SeenTotal a{number(random) + 0.01, 0};
+        const SeenTotal b{number(random) + 0.01, 0};
+        const SeenJointly joint{number(random) * std::min(a.length_m, b.length_m), 0, 0};
+        for (const OverlapRatio from : by_length) {
+            for (const OverlapRatio to : by_length) {
+                const double there = overlap(to, a, b, joint);
+                const double implied = implied_threshold({from, overlap(from, a, b, joint)}, to);
+                ASSERT_GE(there, implied - 1e-12);
+                double& gap = least.try_emplace({from, to}, 1).first->second;
+                if (implied > 0) gap = std::min(gap, there - implied);
+            }
+        }
+    }
+    for (const auto& [pair, gap] : least) {
+        const bool none = pair.first == OverlapRatio::min_len && pair.second != pair.first;
+        EXPECT_EQ(gap < 1e-3, !none) << formula(pair.first).name << formula(pair.second).name;
+    }
+    EXPECT_EQ(implied_threshold({OverlapRatio::mean_ang, 0.4}, OverlapRatio::mean_ang), 0.4);
+    EXPECT_EQ(implied_threshold({OverlapRatio::mean_ang, 0.4}, OverlapRatio::min_len), 0);
+    EXPECT_EQ(implied_threshold({OverlapRatio::mean_len, 0.4}, OverlapRatio::union_ang), 0);
+    EXPECT_NEAR(implied_threshold({OverlapRatio::mean_len, 0.4}, OverlapRatio::union_len), 0.25,
+                1e-12);
+}
+
 }  // namespace
 }  // namespace vfplan
