@@ -9,111 +9,12 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/joining/contested.h"
 #include "kernels/disjoint_sets.h"
 #include "kernels/index.h"
 
 namespace vfplan {
 namespace {
-
-constexpr std::int64_t rows_at_once = 16;
-
-// The rows of those who may reach into another set, and of these only the pieces that are seen from
-// several sets: what two sets share is in there, whole and in order.
-struct Contested {
-    OverlapRows rows;
-    std::vector<std::int32_t> node;  // of each row
-};
-
-// `set` and `kind` of each node: nodes of one kind in one set stand for each other.
-Contested contested_of(const JoinProblem& p, const std::vector<SeenTotal>& totals,
-                       const std::vector<std::int32_t>& set,
-                       const std::vector<std::int32_t>& kind) {
-    constexpr std::int32_t nobody = -1;
-    constexpr std::int32_t several = -2;
-    const OverlapRows& all = p.local.rows;
-    std::vector<std::int32_t> seen_from(p.local.piece_length_m.size(), nobody);
-    for (std::int32_t n = 0; n < all.size(); ++n) {
-        for (const std::int32_t piece : all.row(n)) {
-            std::int32_t& from = seen_from[idx(piece)];
-            from = from == nobody || from == set[idx(n)] ? set[idx(n)] : several;
-        }
-    }
-    const auto shared = [&](std::int32_t piece) { return seen_from[idx(piece)] == several; };
-    // Of equal rows in one set, by lengths, the one that sees least besides overlaps most.
-    const bool by_angle = formula(p.rule.ratio).by_angle;
-    std::vector<std::int32_t> kept;
-    std::map<std::tuple<std::int32_t, std::int32_t, std::vector<std::int32_t>>, std::int32_t> best;
-    for (std::int32_t n = 0; n < all.size(); ++n) {
-        std::vector<std::int32_t> pieces;
-        for (const std::int32_t piece : all.row(n)) {
-            if (shared(piece)) pieces.push_back(piece);
-        }
-        if (pieces.empty()) continue;
-        if (by_angle) {
-            kept.push_back(n);
-            continue;
-        }
-        const auto [known, news] =
-            best.emplace(std::tuple(set[idx(n)], kind[idx(n)], std::move(pieces)), n);
-        if (!news && totals[idx(n)].length_m < totals[idx(known->second)].length_m) {
-            known->second = n;
-        }
-    }
-    for (const auto& [key, n] : best) kept.push_back(n);
-    std::sort(kept.begin(), kept.end());
-    Contested out;
-    for (const std::int32_t n : kept) {
-        const SeenRow row = all.seen(n, {});
-        for (std::size_t i = 0; i < row.piece.size(); ++i) {
-            if (!shared(row.piece[i])) continue;
-            out.rows.piece.push_back(row.piece[i]);
-            if (!row.angle_rad.empty()) out.rows.angle_rad.push_back(row.angle_rad[i]);
-        }
-        out.rows.begin.push_back(static_cast<std::int64_t>(out.rows.piece.size()));
-        out.node.push_back(n);
-    }
-    return out;
-}
-
-// Calls f(block, a, b, overlap) for nodes a < b of different sets that share a piece, from any
-// thread; a block is one thread's at a time. at_least(a, b): overlaps below it need not come.
-template <class AtLeast, class F>
-void across(const Threads& threads, const JoinProblem& p, const std::vector<SeenTotal>& totals,
-            const std::vector<std::int32_t>& set, const Contested& contested, AtLeast&& at_least,
-            F&& f) {
-    const std::vector<double>& length_m = p.local.piece_length_m;
-    const PieceIndex index = index_of(contested.rows, static_cast<std::int64_t>(length_m.size()));
-    const std::vector<SeenTotal> parts = seen_totals(contested.rows, length_m);
-    const std::int64_t blocks = (contested.rows.size() + rows_at_once - 1) / rows_at_once;
-    threads.for_each(blocks, 1, [&](std::int64_t from, std::int64_t to) {
-        PairSearch search(contested.rows, index, length_m, formula(p.rule.ratio).by_angle);
-        for (std::int64_t block = from; block < to; ++block) {
-            const std::int64_t end =
-                std::min<std::int64_t>(contested.rows.size(), (block + 1) * rows_at_once);
-            for (std::int64_t r = block * rows_at_once; r < end; ++r) {
-                const std::int32_t a = contested.node[idx(r)];
-                search.after(
-                    static_cast<std::int32_t>(r),
-                    [&](std::int32_t n) {
-                        const std::int32_t b = contested.node[idx(n)];
-                        if (set[idx(a)] == set[idx(b)]) return false;
-                        const SeenTotal& x = parts[idx(r)];
-                        const SeenTotal& y = parts[idx(n)];
-                        const SeenJointly most{std::min(x.length_m, y.length_m), x.angle_rad,
-                                               y.angle_rad};
-                        constexpr double rounding = 1e-9;
-                        return overlap(p.rule.ratio, totals[idx(a)], totals[idx(b)], most) >=
-                               at_least(a, b) - rounding;
-                    },
-                    [&](std::int32_t n, const SeenJointly& joint) {
-                        const std::int32_t b = contested.node[idx(n)];
-                        f(block, a, b,
-                          overlap(p.rule.ratio, totals[idx(a)], totals[idx(b)], joint));
-                    });
-            }
-        }
-    });
-}
 
 class Joiner {
 public:
@@ -164,39 +65,46 @@ private:
 
     // The components that each cell overlaps enough with, a pair of numbers each, ascending.
     std::vector<std::pair<std::int32_t, std::int32_t>> beside() const {
+        std::vector<std::int32_t> components = p_.component;  // those that there are
+        std::sort(components.begin(), components.end());
+        components.erase(std::unique(components.begin(), components.end()), components.end());
+        constexpr std::size_t bits = 64;
+        const std::size_t words = components.size() / bits + 1;
+        std::vector<std::uint64_t> found(words * idx(p_.cells()), 0);  // one found is enough
         const auto& length_m = p_.local.piece_length_m;
         const PieceIndex index =
             index_of(p_.local.rows, static_cast<std::int64_t>(length_m.size()));
-        const std::int64_t blocks = (p_.candidates() + rows_at_once - 1) / rows_at_once;
-        std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> found(idx(blocks));
-        threads_.for_each(blocks, 1, [&](std::int64_t from, std::int64_t to) {
+        threads_.for_each(p_.candidates(), rows_at_once, [&](std::int64_t from, std::int64_t to) {
             PairSearch search(p_.local.rows, index, length_m, formula(p_.rule.ratio).by_angle);
-            for (std::int64_t block = from; block < to; ++block) {
-                auto& mine = found[idx(block)];
-                const std::int64_t end =
-                    std::min<std::int64_t>(p_.candidates(), (block + 1) * rows_at_once);
-                for (std::int64_t r = block * rows_at_once; r < end; ++r) {
-                    search.after(
-                        static_cast<std::int32_t>(r),
-                        [&](std::int32_t n) { return n >= p_.candidates(); },
-                        [&](std::int32_t n, const SeenJointly& joint) {
-                            const double o =
-                                overlap(p_.rule.ratio, totals_[idx(r)], totals_[idx(n)], joint);
-                            if (!p_.rule.enough(o)) return;
-                            mine.emplace_back(n - p_.candidates(), p_.component[idx(r)]);
-                        });
-                }
-                std::sort(mine.begin(), mine.end());
-                mine.erase(std::unique(mine.begin(), mine.end()), mine.end());
+            for (std::int64_t r = from; r < to; ++r) {
+                const std::size_t k = idx(
+                    std::lower_bound(components.begin(), components.end(), p_.component[idx(r)]) -
+                    components.begin());
+                const std::uint64_t bit = std::uint64_t{1} << k % bits;
+                const auto word = [&](std::int32_t n) {
+                    return std::atomic_ref<std::uint64_t>(
+                        found[words * idx(n - p_.candidates()) + k / bits]);
+                };
+                search.after(
+                    static_cast<std::int32_t>(r),
+                    [&](std::int32_t n) {
+                        return n >= p_.candidates() &&
+                               (word(n).load(std::memory_order_relaxed) & bit) == 0;
+                    },
+                    [&](std::int32_t n, const SeenJointly& joint) {
+                        const double o =
+                            overlap(p_.rule.ratio, totals_[idx(r)], totals_[idx(n)], joint);
+                        if (p_.rule.enough(o)) word(n).fetch_or(bit, std::memory_order_relaxed);
+                    });
             }
         });
         std::vector<std::pair<std::int32_t, std::int32_t>> out;
-        for (auto& some : found) {
-            out.insert(out.end(), some.begin(), some.end());
-            some = {};
+        for (std::int32_t c = 0; c < p_.cells(); ++c) {
+            for (std::size_t k = 0; k < components.size(); ++k) {
+                if ((found[words * idx(c) + k / bits] >> k % bits & 1U) == 0) continue;
+                out.emplace_back(c, components[k]);
+            }
         }
-        std::sort(out.begin(), out.end());
-        out.erase(std::unique(out.begin(), out.end()), out.end());
         return out;
     }
 
@@ -244,7 +152,7 @@ private:
         std::vector<std::int32_t> kind(idx(p_.local.rows.size()), 0);
         for (std::int32_t c = 0; c < p_.cells(); ++c) kind[idx(first + c)] = steps_[idx(c)];
         const std::vector<std::int32_t> set = roots();
-        const Contested contested = contested_of(p_, totals_, set, kind);
+        const Contested contested = contested_of(p_, totals_, set, kind, p_.rule.threshold);
         std::vector<std::vector<Edge>> found(contested.node.size() / rows_at_once + 1);
         constexpr std::int32_t nobody = std::numeric_limits<std::int32_t>::max();
         reached_.assign(idx(p_.cells()), nobody);
@@ -254,7 +162,7 @@ private:
             while (from < known && !least.compare_exchange_weak(known, from)) continue;
         };
         across(
-            threads_, p_, totals_, set, contested,
+            threads_, p_, totals_, contested,
             [&](std::int32_t, std::int32_t) { return p_.rule.threshold; },
             [&](std::int64_t block, std::int32_t a, std::int32_t b, double o) {
                 if (a < first || !p_.rule.enough(o)) return;  // candidates: done by one cell
@@ -304,11 +212,11 @@ private:
     // Sets of cells alone, and what else overlaps where there is one set of candidates by now.
     void join_the_rest() {
         const std::vector<std::int32_t> set = roots();
-        const Contested contested =
-            contested_of(p_, totals_, set, std::vector<std::int32_t>(set.size(), 0));
+        const Contested contested = contested_of(
+            p_, totals_, set, std::vector<std::int32_t>(set.size(), 0), p_.rule.threshold);
         std::mutex merging;
         across(
-            threads_, p_, totals_, set, contested,
+            threads_, p_, totals_, contested,
             [&](std::int32_t, std::int32_t) { return p_.rule.threshold; },
             [&](std::int64_t, std::int32_t a, std::int32_t b, double o) {
                 if (!p_.rule.enough(o)) return;
@@ -360,15 +268,36 @@ std::vector<SetPair> largest_overlaps(const Threads& threads, const JoinProblem&
     for (const std::int32_t c : p.component) set.push_back(joined.set_of_component[idx(c)]);
     set.insert(set.end(), joined.set_of_cell.begin(), joined.set_of_cell.end());
     const Contested contested =
-        contested_of(p, totals, set, std::vector<std::int32_t>(set.size(), 0));
+        contested_of(p, totals, set, std::vector<std::int32_t>(set.size(), 0), 0);
+    // The largest ones found so far, by sets numbered anew: nobody looks for less.
+    std::vector<std::int32_t> rank(set.size(), 0);
+    std::size_t sets = 0;
+    for (std::size_t r = 0; r < contested.node.size(); ++r) {
+        const bool first = r == 0 || set[idx(contested.node[r])] != set[idx(contested.node[r - 1])];
+        if (first) ++sets;
+        rank[idx(contested.node[r])] = static_cast<std::int32_t>(sets - 1);
+    }
+    constexpr std::size_t sets_most = 1024;
+    std::vector<std::atomic<double>> known(sets <= sets_most ? sets * sets : 0);
+    const auto known_of = [&](std::int32_t a, std::int32_t b) -> std::atomic<double>& {
+        const auto [low, high] = std::minmax(rank[idx(a)], rank[idx(b)]);
+        return known[idx(low) * sets + idx(high)];
+    };
     using Best = std::map<std::pair<std::int32_t, std::int32_t>, double>;
     std::vector<Best> best(contested.node.size() / rows_at_once + 1);
     across(
-        threads, p, totals, set, contested, [](std::int32_t, std::int32_t) { return 0.0; },
+        threads, p, totals, contested,
+        [&](std::int32_t a, std::int32_t b) {
+            return known.empty() ? 0.0 : known_of(a, b).load(std::memory_order_relaxed);
+        },
         [&](std::int64_t block, std::int32_t a, std::int32_t b, double o) {
             if (o <= 0) return;
             double& most = best[idx(block)][std::minmax(set[idx(a)], set[idx(b)])];
             most = std::max(most, o);
+            if (known.empty()) return;
+            std::atomic<double>& so_far = known_of(a, b);
+            double before = so_far.load(std::memory_order_relaxed);
+            while (before < o && !so_far.compare_exchange_weak(before, o)) continue;
         });
     Best all;
     for (const Best& some : best) {

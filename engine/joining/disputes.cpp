@@ -274,7 +274,8 @@ std::vector<std::int64_t> looked_from(const TableJob& job, const DisputeRound& r
 
 std::vector<std::int64_t> disputed_cells(const TableJob& job, const SiteStore& site,
                                          const FieldTiles& tiles, const DisputeRound& round,
-                                         bool first, const OverlapRule& rule, std::int64_t tile) {
+                                         const std::vector<std::int64_t>& known,
+                                         const OverlapRule& rule, std::int64_t tile, bool first) {
     const Grid& grid = job.layout().grid;
     const Window core = job.layout().tile_window(tile);
     // What sets a piece is seen from hangs on cells around the tile, too.
@@ -288,9 +289,9 @@ std::vector<std::int64_t> disputed_cells(const TableJob& job, const SiteStore& s
     for (std::int32_t y = core.y_begin; y < core.y_end; ++y) {
         for (std::int32_t x = core.x_begin; x < core.x_end; ++x) {
             const std::size_t i = field.index(x, y);
-            if (may_see[i] == several && !std::isnan(field.vf_rad[i])) {
-                cells.push_back(grid.id(x, y));
-            }
+            if (may_see[i] != several || std::isnan(field.vf_rad[i])) continue;
+            const std::int64_t cell = grid.id(x, y);
+            if (!std::binary_search(known.begin(), known.end(), cell)) cells.push_back(cell);
         }
     }
     return looked_from(job, round, cells, rule);
@@ -298,13 +299,20 @@ std::vector<std::int64_t> disputed_cells(const TableJob& job, const SiteStore& s
 
 }  // namespace
 
-void make_disputed(const TableJob& job, const ShardNames& names, const SiteStore& site,
-                   const FieldTiles& field, const DisputeRound& round, bool first,
+void make_disputed(const TableJob& job, const std::vector<ShardNames>& rounds,
+                   const SiteStore& site, const FieldTiles& field, const DisputeRound& round,
                    const OverlapRule& rule) {
-    make_shards(job, names, job.layout().tiles(),
+    make_shards(job, rounds.back(), job.layout().tiles(),
                 [&](std::int64_t tile, const std::filesystem::path& path) {
-                    write_disputed_cells(
-                        path, job.key, disputed_cells(job, site, field, round, first, rule, tile));
+                    std::vector<std::int64_t> known;
+                    for (std::size_t r = 0; r + 1 < rounds.size(); ++r) {
+                        const auto some = read_disputed_cells(rounds[r].one(tile));
+                        known.insert(known.end(), some.begin(), some.end());
+                    }
+                    std::sort(known.begin(), known.end());
+                    write_disputed_cells(path, job.key,
+                                         disputed_cells(job, site, field, round, known, rule, tile,
+                                                        rounds.size() == 1));
                 });
 }
 

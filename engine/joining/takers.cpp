@@ -29,10 +29,21 @@ std::vector<std::int32_t> find_takers(const TakerProblem& p) {
     }
     sort_once(covered);
     std::vector<SetPiece> seen = covered;  // from any cell
+    std::vector<std::vector<std::int32_t>> cells_of(idx(sets));
     for (std::int32_t c = 0; c < cells; ++c) {
         const std::int32_t set = p.joined.set_of_cell[idx(c)];
-        if (set >= sets) continue;  // without candidates
-        for (const std::int32_t piece : pieces_of(c)) seen.emplace_back(set, piece + p.first_piece);
+        if (set < sets) cells_of[idx(set)].push_back(c);  // others have no candidates
+    }
+    std::vector<std::int32_t> last(p.local.piece_length_m.size(),
+                                   -1);  // set that a piece is noted of
+    for (std::int32_t set = 0; set < sets; ++set) {
+        for (const std::int32_t c : cells_of[idx(set)]) {
+            for (const std::int32_t piece : pieces_of(c)) {
+                if (last[idx(piece)] == set) continue;
+                last[idx(piece)] = set;
+                seen.emplace_back(set, piece + p.first_piece);
+            }
+        }
     }
     sort_once(seen);
     std::vector<double> length(idx(sets), 0);
