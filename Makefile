@@ -11,7 +11,7 @@ VFPLAN := build/$(PRESET)/vfplan
 
 SOURCES = $(shell find kernels io engine tests bench -name '*.cpp' -o -name '*.h' | LC_ALL=C sort)
 
-.PHONY: help setup build configure program run test golden random-sites bench-build bench bench-check bench-counts \
+.PHONY: help setup build configure program run test golden random-sites random-networks bench-build bench bench-check bench-counts \
         scaling area check-format format tidy clean
 
 help:  ## this list
@@ -44,6 +44,9 @@ test: build  ## build, then run every test
 
 random-sites: build  ## 10,000 hostile little sites of each kind, read and held against their drawing
 	@VFPLAN_RANDOM_SITES=10000 build/$(PRESET)/test_io --gtest_filter='RandomSites.*'
+
+random-networks: build  ## 400 little sites of each kind: as many networks as over all free cells
+	@VFPLAN_RANDOM_SITES=400 build/$(PRESET)/test_engine --gtest_filter='RandomNetworks.*'
 
 golden: program  ## after a change of results that is meant: new hashes for tests/golden
 	@/usr/bin/python3 -B tests/golden/golden.py renew $(VFPLAN)

@@ -33,7 +33,7 @@ formats = ["csv"]
 # The parts of a run that work tile by tile.
 TILED = {"field": ("field",), "skeleton": ("skeleton",),
          "candidates": ("joints", "splits", "rescues"),
-         "connectors": ("components", "paths", "connectors"),
+         "connectors": ("components", "paths", "connectors", "disputed", "joins"),
          "coverage": ("coverage",)}
 WHOLE = {"site": ("site",), "ridges": ("ridges",), "tables": ("tables",),
          "plan": ("read", "overlap", "plan", "metrics", "join_thresholds", "files", "hash")}

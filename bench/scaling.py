@@ -44,7 +44,7 @@ CITY_KM2 = (1, 2, 4, 8, 16, 25)
 CORES = tuple(2**i for i in range(8))
 FILES = ("site", "tables", "read", "files", "hash")  # stages that read and write
 IN_TASKS = ("field", "skeleton", "joints", "splits", "rescues", "components", "paths", "connectors",
-            "coverage")  # stages that hand out tasks
+            "disputed", "coverage")  # stages that hand out tasks
 QUANTITIES = {"cpu_s": "processor time, whole job",
               "cpu_computing_s": "the same without reading and writing files",
               "cpu_field_s": "processor time, field",

@@ -11,9 +11,9 @@
 #include <memory>
 
 #include "bench/scenes.h"
+#include "engine/job/tables.h"
 #include "engine/plan/overlap_graph.h"
 #include "engine/plan/planning.h"
-#include "engine/tables/tables.h"
 #include "io/tables/coverage_file.h"
 #include "io/tables/field_file.h"
 #include "io/tables/field_tiles.h"

@@ -3,7 +3,7 @@
 is built. `docs/make.py` writes them, `docs/make.py --check` fails when they are not what it would write.
 
 The picture has a row for each phase on the way from a site to its tables, as the flow functions of
-engine/tables/tables.cpp call them, and for each stage from tables to files, as engine/plan/planning.cpp
+engine/job/tables.cpp call them, and for each stage from tables to files, as engine/plan/planning.cpp
 and engine/job/pipeline.cpp name them. Arcs lead from what makes a handle to what takes it.
 """
 
@@ -15,6 +15,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 PICTURE = ROOT / "docs/images/flow.svg"
 MODULES = ROOT / "docs/modules.md"
+FLOW = "engine/job/tables.cpp"
+PHASES = ("engine/tables", "engine/joining")
 
 
 def read(path):
@@ -35,9 +37,14 @@ def statements(body):
     return [" ".join(s.split()) for s in body.split(";")]
 
 
+def sources(pattern):
+    """Of the rooms that phases lie in."""
+    return [f for room in PHASES for f in sorted((ROOT / room).glob(pattern))]
+
+
 def header_comment(name):
     """What the header that declares a function says of its phase: the comment above it."""
-    for header in sorted((ROOT / "engine/tables").glob("*.h")):
+    for header in sources("*.h"):
         text = header.read_text(encoding="utf-8")
         found = re.search(r"((?:^//[^\n]*\n)+)[^\n/]*\b" + name + r"\(", text, re.M)
         if found:
@@ -53,7 +60,7 @@ class Row:
 
 def table_rows():
     """Rows of the two flow functions that make tables."""
-    source = read("engine/tables/tables.cpp")
+    source = read(FLOW)
     rows = [Row("site", "make_site", "work/site.h5", [], "site", "engine/tables/site.cpp")]
     for function in ("make_tables", "make_coverage_table"):
         for s in statements(body_of(source, function)):
@@ -71,8 +78,7 @@ def table_rows():
             else:
                 title = "tables"
                 files = "field.h5" if "field" in name else "coverage.h5"
-            where = next(f"engine/tables/{c.stem}.cpp"
-                         for c in sorted((ROOT / "engine/tables").glob("*.cpp"))
+            where = next(str(c.relative_to(ROOT)) for c in [*sources("*.cpp"), ROOT / FLOW]
                          if re.search(rf"^\S.*\b{name}\(", c.read_text(encoding="utf-8"), re.M))
             rows.append(Row(title, name, files, takes, gives or files, where))
     return rows

@@ -9,9 +9,9 @@
 
 #include "engine/config/options.h"
 #include "engine/job/needs.h"
+#include "engine/joining/paths.h"
 #include "engine/runtime/memory.h"
 #include "engine/runtime/stop.h"
-#include "engine/tables/paths.h"
 #include "engine/tables/site.h"
 #include "engine/tables/standable.h"
 #include "io/exports/outputs.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "engine/tables/paths.h"
+#include "engine/joining/paths.h"
 
 namespace vfplan {
 namespace {

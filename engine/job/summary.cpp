@@ -33,21 +33,25 @@ std::string apart_text(const Planned& p, const Config& config) {
     const auto networks = [](std::int64_t n) {
         return fmt::format("{} network{}", n, n == 1 ? "" : "s");
     };
+    const std::int64_t cells = p.join_thresholds.free_cells;
+    const std::string over =
+        cells > 0 ? fmt::format("all {} free cells", cells) : std::string("candidates");
     std::string out = fmt::format(
         "apart        {} pieces are seen from {} only, not from the main one (network_list in "
         "summary.json)\n",
         m.pieces_unreached, networks(m.networks - 1));
     if (enclosed > 0) {
         out += fmt::format(
-            "             {}: no chain of candidates shares a piece with the main one; walls or "
+            "             {}: no chain of {} shares a piece with the main one; walls or "
             "distance part them, or cells of {} m are too coarse for a path between\n",
-            networks(enclosed), config.field.cell_m);
+            networks(enclosed), cells > 0 ? fmt::format("the {} free cells", cells) : over,
+            config.field.cell_m);
     }
     if (const std::int64_t weak = m.networks - 1 - enclosed; weak > 0) {
         out += fmt::format(
-            "             {}: joined from overlap.threshold = {:.3f} down (now {}); smaller cells "
-            "may help; with ratio min_len there would be {} in all\n",
-            networks(weak), std::floor(least * 1000) / 1000, config.overlap.threshold,
+            "             {}: over {} joined from overlap.threshold = {:.3f} down (now {}); "
+            "smaller cells may help; with ratio min_len there would be {} in all at most\n",
+            networks(weak), over, std::floor(least * 1000) / 1000, config.overlap.threshold,
             networks(p.join_thresholds.networks_by_min_len));
     }
     return out;
@@ -108,6 +112,11 @@ Json summary_of_plan(const Planned& p, const CoverageTables& t) {
                             {"joins_main_at", p.join_thresholds.joins_at[n]}});
     }
     j["network_list"] = networks;
+    if (stations.size() > 1) {
+        const std::int64_t cells = p.join_thresholds.free_cells;
+        j["joins_main_at_over"] =
+            cells > 0 ? fmt::format("all {} free cells", cells) : std::string("candidates");
+    }
     j["networks_by_min_len"] = p.join_thresholds.networks_by_min_len;
     return j;
 }

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "engine/job/tables.h"
 #include "engine/runtime/progress.h"
 #include "engine/runtime/ranks.h"
 #include "engine/tables/field.h"
 #include "engine/tables/site.h"
 #include "engine/tables/skeleton.h"
-#include "engine/tables/tables.h"
 #include "io/tables/coverage_file.h"
 #include "io/temporary_folder.h"
 

@@ -130,10 +130,23 @@ std::vector<double> joins_at(std::vector<Neighbours> pairs,
     return out;
 }
 
+// What overlaps over free cells. Components of these alone come behind the others.
+void add_pairs(const Apart& apart, const std::vector<std::int32_t>& component,
+               std::vector<std::int32_t>& network_of, std::vector<Neighbours>& pairs) {
+    const std::size_t count = network_of.size();
+    const auto of = [&](std::int32_t name) {
+        if (idx(name) < component.size()) return component[idx(name)];
+        const std::size_t behind = count + idx(name) - component.size();
+        if (behind >= network_of.size()) network_of.resize(behind + 1, -1);
+        return static_cast<std::int32_t>(behind);
+    };
+    for (const SetPair& p : apart.pairs) pairs.push_back({of(p.a), of(p.b), p.overlap});
+}
+
 }  // namespace
 
 JoinThresholds find_join_thresholds(const Threads& threads, const PlanInput& in,
-                                    const OverlapRule& rule, const Plan& plan) {
+                                    const OverlapRule& rule, const Apart& apart, const Plan& plan) {
     std::size_t networks = 0;
     for (const Station& s : plan.stations) networks = std::max(networks, idx(s.network) + 1);
     JoinThresholds out;
@@ -146,7 +159,12 @@ JoinThresholds find_join_thresholds(const Threads& threads, const PlanInput& in,
     std::vector<std::int32_t> network_of(count, -1);
     for (const Station& s : plan.stations) network_of[idx(component[idx(s.candidate)])] = s.network;
     DisjointSets by_min_len(static_cast<std::int64_t>(count));
-    out.joins_at = joins_at(neighbours(in, component, rule, by_min_len), network_of, networks);
+    std::vector<Neighbours> pairs = neighbours(in, component, rule, by_min_len);
+    if (apart.rule.ratio == rule.ratio && apart.rule.threshold >= rule.threshold) {
+        out.free_cells = apart.free_cells;
+        add_pairs(apart, component, network_of, pairs);
+    }
+    out.joins_at = joins_at(std::move(pairs), network_of, networks);
 
     // By lengths, whatever overlaps enough by the job's ratio does so by min_len: only what lies
     // between the components can join them. Angles say nothing of lengths.

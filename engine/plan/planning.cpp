@@ -42,7 +42,8 @@ Planned plan_stations(const PlanTables& t, const PlanOptions& options, double ra
     out.metrics = measure(threads, input, out.plan,
                           PiecePlaces(t.coverage.walls, t.coverage.pieces), range_max_m);
     progress.stage("join_thresholds");
-    out.join_thresholds = find_join_thresholds(threads, input, options.overlap, out.plan);
+    out.join_thresholds =
+        find_join_thresholds(threads, input, options.overlap, t.coverage.apart, out.plan);
     return out;
 }
 

@@ -51,8 +51,8 @@ ShardNames TableJob::kept(const std::string& phase, const std::string& variant) 
     return {dir / "shards", phase, variant};
 }
 
-ShardNames TableJob::passing(const std::string& phase) const {
-    return {passing_folder(dir, layout().tile_cells), phase};
+ShardNames TableJob::passing(const std::string& phase, const std::string& variant) const {
+    return {passing_folder(dir, layout().tile_cells), phase, variant};
 }
 
 void make_shard_folders(const std::filesystem::path& dir, std::int64_t tile_cells) {

@@ -30,7 +30,7 @@ struct TableJob {
     std::int32_t range_cells() const;
     // Of shards that stay, and of those of work in progress.
     ShardNames kept(const std::string& phase, const std::string& variant = "") const;
-    ShardNames passing(const std::string& phase) const;
+    ShardNames passing(const std::string& phase, const std::string& variant = "") const;
 };
 
 // The folders that shards lie in. Throws IoError.

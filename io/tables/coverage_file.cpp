@@ -154,6 +154,7 @@ void write_coverage_index(const std::filesystem::path& path, const std::vector<W
     file.write_virtual<std::int32_t>("coverage/indices", {whole}, parts("indices"), -1);
     file.write_virtual<float>("coverage/data", {whole}, parts("data"), 0);
     file.write_virtual<float>("coverage/angle_rad", {whole}, parts("angle_rad"), 0);
+    write_apart(file, info.apart);
     write_shard_list(file, blocks);
     finish_table(file);
 }
@@ -176,6 +177,7 @@ CoverageTables read_coverage(const std::filesystem::path& path) {
                                    [](std::uint8_t v) { return v; });
     t.candidates = read_candidates(file);
     t.begin = file.read<std::int64_t>("coverage/indptr");
+    t.apart = read_apart(file);
     return t;
 }
 

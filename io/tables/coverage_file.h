@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/h5_reader.h"
+#include "io/tables/join_shards.h"
 #include "kernels/candidate.h"
 #include "kernels/coverage.h"
 #include "kernels/wall.h"
@@ -33,6 +34,7 @@ struct CoverageTables {
     std::string crs_wkt;
     std::string key;
     std::string summary;
+    Apart apart;  // by the overlap of the job that made the tables
 
     std::int64_t rows() const { return static_cast<std::int64_t>(begin.size()) - 1; }
     std::int64_t entries() const { return begin.back(); }
@@ -44,6 +46,7 @@ struct CoverageInfo {
     std::string crs_wkt;
     std::string key;
     std::string summary;  // JSON of how it was made, for summary.json
+    Apart apart;          // written where it is known
 };
 void write_coverage_index(const std::filesystem::path& path, const std::vector<Wall>& walls,
                           const Pieces& pieces, const std::vector<std::filesystem::path>& blocks,

@@ -25,7 +25,7 @@ Plan plan_of(const std::vector<std::pair<std::int32_t, std::int32_t>>& stations)
 
 JoinThresholds thresholds_of(const HandMade& h, const Plan& plan, double threshold = 0.3,
                              OverlapRatio ratio = OverlapRatio::mean_len, int threads = 1) {
-    return find_join_thresholds(Threads(threads), h.input(), {ratio, threshold}, plan);
+    return find_join_thresholds(Threads(threads), h.input(), {ratio, threshold}, {}, plan);
 }
 
 const std::vector<double> ones(20, 1.0);

@@ -14,10 +14,11 @@
 #include <utility>
 #include <vector>
 
+#include "engine/job/tables.h"
 #include "engine/tables/field.h"
 #include "engine/tables/skeleton.h"
-#include "engine/tables/tables.h"
 #include "io/tables/coverage_file.h"
+#include "io/tables/path_shards.h"
 #include "kernels/free_cells.h"
 #include "kernels/skeleton.h"
 #include "tests/io/site/features.h"
@@ -52,6 +53,7 @@ struct CandidateResult {
     std::int64_t rescued_pieces = 0;
     std::int64_t components_before = 0;
     std::int64_t components = 0;
+    std::size_t paths = 0;  // between components, that were tried
 };
 inline CandidateResult read_result(const std::filesystem::path& file) {
     const CoverageTables tables = read_coverage(file);
@@ -154,7 +156,10 @@ public:
     }
     CandidateResult candidates(const FieldTiles& field, const RidgeTiles& ridges) const {
         make_coverage_table(tables, site, field, ridges, options);
-        return read_result(dir / "coverage.h5");
+        CandidateResult out = read_result(dir / "coverage.h5");
+        const std::filesystem::path paths = tables.passing("paths").whole();
+        if (std::filesystem::exists(paths)) out.paths = read_paths(paths).size();
+        return out;
     }
 
 private:

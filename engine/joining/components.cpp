@@ -1,4 +1,4 @@
-#include "engine/tables/components.h"
+#include "engine/joining/components.h"
 
 #include <algorithm>
 #include <cmath>
@@ -80,9 +80,9 @@ CandidatePairs connecting_pairs(const TableJob& job, const CandidateList& candid
 }  // namespace
 
 Components make_components(const TableJob& job, const CandidateList& candidates,
-                           const OverlapRule& rule) {
+                           const OverlapRule& rule, const std::string& variant) {
     const std::int64_t tiles = job.layout().tiles();
-    const ShardNames names = job.passing("components");
+    const ShardNames names = job.passing("components", variant);
     make_shards(job, names, tiles, [&](std::int64_t tile, const std::filesystem::path& path) {
         write_pairs(path, job.key, connecting_pairs(job, candidates, rule, tile));
     });

@@ -1,16 +1,17 @@
-#include "engine/tables/tables.h"
+#include "engine/job/tables.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "engine/tables/components.h"
-#include "engine/tables/connectors.h"
+#include "engine/joining/components.h"
+#include "engine/joining/connectors.h"
+#include "engine/joining/joins.h"
+#include "engine/joining/paths.h"
 #include "engine/tables/coverage.h"
 #include "engine/tables/field.h"
 #include "engine/tables/joints.h"
-#include "engine/tables/paths.h"
 #include "engine/tables/rescues.h"
 #include "engine/tables/skeleton.h"
 #include "engine/tables/splits.h"
@@ -50,14 +51,15 @@ void make_field_index(const TableJob& job, const SiteStore& site, const FieldTil
 }
 
 void make_coverage_index(const TableJob& job, const SiteStore& site,
-                         const std::vector<std::filesystem::path>& blocks, const Json& search) {
+                         const std::vector<std::filesystem::path>& blocks, const Json& search,
+                         const Apart& apart) {
     make_one(job, index_phase, job.dir / coverage_name, [&](const std::filesystem::path& path) {
         const SiteFacts& facts = site.facts();
         Json summary = Json::parse(facts.summary);
         summary["candidate_search"] = search;
         const std::vector<Wall> walls = site.all_walls();
         write_coverage_index(path, walls, site.all_pieces(walls), blocks,
-                             {facts.origin, facts.crs_wkt, job.key, summary.dump()});
+                             {facts.origin, facts.crs_wkt, job.key, summary.dump(), apart});
     });
 }
 
@@ -102,9 +104,10 @@ void make_coverage_table(const TableJob& job, const SiteStore& site, const Field
         make_rescues(job, site, field, joints, splits, of_user, options.threshold_rad);
     const Components components = make_components(job, rescued.candidates, rule);
     const std::vector<ShortestPath> paths = make_paths(job, field, rescued.candidates, components);
-    const CandidateList candidates =
+    const CandidateList connected =
         make_connectors(job, rescued.candidates, components, paths, of_user, rule);
-    const std::vector<std::filesystem::path> blocks = make_coverage(job, field, candidates);
+    const Joins joins = make_joins(job, site, field, connected, of_user, rule);
+    const std::vector<std::filesystem::path> blocks = make_coverage(job, field, joins.candidates);
 
     make_coverage_index(job, site, blocks,
                         {{"joints", ridges.joints()},
@@ -112,7 +115,8 @@ void make_coverage_table(const TableJob& job, const SiteStore& site, const Field
                          {"arcs_short_of_overlap", splits.short_of_overlap()},
                          {"rescued_pieces", rescued.pieces},
                          {"components_before_connectors", components.count()},
-                         {"components", candidates.components()}});
+                         {"components", joins.candidates.components()}},
+                        joins.apart);
 }
 
 void make_tables(const TableOptions& of_job, const std::filesystem::path& dir,

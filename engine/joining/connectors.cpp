@@ -1,4 +1,4 @@
-#include "engine/tables/connectors.h"
+#include "engine/joining/connectors.h"
 
 #include <algorithm>
 #include <tuple>

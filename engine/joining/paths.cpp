@@ -1,4 +1,4 @@
-#include "engine/tables/paths.h"
+#include "engine/joining/paths.h"
 
 #include <algorithm>
 #include <cmath>
