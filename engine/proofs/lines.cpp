@@ -20,9 +20,10 @@ Root root_of(const Problem& p) {
     return out;
 }
 
-Lines::Lines(const Problem& problem, const Root& root)
+Lines::Lines(const Problem& problem, const Root& root, std::vector<std::int64_t> cost)
     : p_(problem),
       r_(root),
+      cost_(std::move(cost)),
       first_root_(p_.columns() + static_cast<std::int32_t>(p_.near.to.size())),
       root_(idx(p_.columns()), -1),
       in_(root_.size(), 0),

@@ -23,7 +23,8 @@ Root root_of(const Problem& problem);
 // candidate. Here lines tell columns and rows of the problem. Refers to both. Not thread-safe.
 class Lines {
 public:
-    Lines(const Problem& problem, const Root& root);
+    // `cost`: of columns, in parts of proof_scale; where it is empty, each is one station.
+    Lines(const Problem& problem, const Root& root, std::vector<std::int64_t> cost = {});
 
     std::int32_t size() const { return first_root_ + static_cast<std::int32_t>(r_.columns.size()); }
     std::int32_t x(std::int32_t column) const { return column; }
@@ -35,6 +36,9 @@ public:
     }
     const Problem& problem() const { return p_; }
     const Root& root() const { return r_; }
+    std::int64_t cost(std::int32_t column) const {
+        return cost_.empty() ? proof_scale : cost_[idx(column)];
+    }
     // Place of the way from a column to another one near to it.
     std::int64_t place(std::int32_t from, std::int32_t to) const;
 
@@ -120,6 +124,7 @@ private:
 
     const Problem& p_;
     const Root& r_;
+    std::vector<std::int64_t> cost_;
     std::int32_t first_root_;
     std::vector<std::int32_t> root_;  // by column: its place in the root, or -1
     std::vector<std::uint32_t> in_;

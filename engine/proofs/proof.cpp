@@ -4,6 +4,7 @@
 
 #include "engine/proofs/cases.h"
 #include "engine/proofs/multipliers.h"
+#include "engine/proofs/windows.h"
 #include "engine/search/reduce.h"
 
 namespace vfplan {
@@ -11,7 +12,7 @@ namespace {
 
 constexpr std::int64_t rounds = 1500;
 // Larger programs would not be solved.
-constexpr std::int32_t most_columns = 20000;
+constexpr std::int32_t most_columns = 6000;
 constexpr std::size_t most_ways = 24000;
 
 NetworkProof begin_proof(const Reduced& reduced, const Root& root) {
@@ -58,6 +59,24 @@ NetworkProof weighed(const Reduced& reduced, const Root& root, std::int64_t stat
     return out;
 }
 
+// Made better piece by piece.
+NetworkProof by_windows(const Reduced& reduced, const Root& root, const NetworkProof& weighed,
+                        Effort& effort) {
+    const Problem& p = reduced.problem;
+    std::vector<std::int64_t> weight(idx(p.rows()), 0);
+    for (const LineWeight& w : weighed.cases.front().weights) {
+        weight[idx(weighed.lines[idx(w.line)].of)] = w.weight;
+    }
+    Weighed better = weigh_by_windows(p, root, weight, effort);
+    NetworkProof out = begin_proof(reduced, root);
+    Lines lines(p, root);
+    const std::vector<Known> nothing(idx(p.columns()), Known::free);
+    out.bound = stations_of(Weighing(lines).value(better.lines, better.weights, nothing));
+    out.lines = std::move(better.lines);
+    out.cases.push_back({-1, std::move(better.weights)});
+    return out;
+}
+
 }  // namespace
 
 NetworkProof weighed_proof(const Problem& problem, const Choice& plan) {
@@ -75,6 +94,7 @@ Proven prove(const Problem& problem, const Choice& plan, std::int64_t effort_mil
     const auto stations = static_cast<std::int64_t>(plan.size());
     NetworkProof best = weighed(reduced, root, stations);
     Choice found = reduced_choice(reduced, problem.columns(), plan);
+    Effort effort{effort_millions * 1'000'000};
     const auto is_open = [&] { return best.bound < static_cast<std::int64_t>(found.size()); };
     if (is_open() && p.columns() <= most_columns) {
         Lines lines(p, root);
@@ -90,7 +110,6 @@ Proven prove(const Problem& problem, const Choice& plan, std::int64_t effort_mil
         }
         // Columns alone first: much smaller programs, whose lines serve the larger ones.
         const bool ways = p.near.to.size() <= most_ways;
-        Effort effort{effort_millions * 1'000'000};
         Effort part{ways ? effort.left / 3 : effort.left};
         effort.left -= part.left;
         Cases by_nodes(lines, found, false, start);
@@ -102,6 +121,10 @@ Proven prove(const Problem& problem, const Choice& plan, std::int64_t effort_mil
             by_ways.run(effort, true);
             take(by_ways);
         }
+    }
+    if (is_open() && p.columns() > most_columns) {
+        NetworkProof better = by_windows(reduced, root, best, effort);
+        if (better.bound > best.bound) best = std::move(better);
     }
     Proven out{std::move(best), {}};
     renumber(reduced, out.proof);

@@ -6,6 +6,7 @@
 namespace vfplan {
 namespace {
 
+constexpr std::int64_t work_by_size = 3;  // of an iteration, as it turned out
 constexpr std::size_t ways_at_once = 300;
 constexpr std::size_t few_ways = 2500;  // come in all at once
 
@@ -15,7 +16,7 @@ Relaxation::Relaxation(Lines& lines, std::int64_t stations, bool ways)
     : lines_(lines), p_(lines.problem()), stations_(stations), ways_(ways) {
     const auto price = 4.0 * static_cast<double>(stations + 1);
     for (std::int32_t c = 0; c < p_.columns(); ++c) {
-        lp_.add_column(1, 1);
+        lp_.add_column(std::ldexp(static_cast<double>(lines.cost(c)), -24), 1);
         if (p_.fixed[idx(c)] != 0) lp_.set_bounds(c, 1, 1);
     }
     relief_ = lp_.columns();
@@ -139,7 +140,7 @@ bool Relaxation::solve(Effort& effort) {
     const double limit = static_cast<double>(stations_ - 1) + 1e-3;
     bool primal = false;
     while (true) {
-        const std::int64_t size = lp_.rows() + lp_.columns();
+        const std::int64_t size = work_by_size * (lp_.rows() + lp_.columns());
         const std::int64_t before = lp_.iterations();
         const LpEnd end = lp_.solve(1 + effort.left / size, limit, primal);
         effort.spend((lp_.iterations() - before + 1) * size);

@@ -41,7 +41,7 @@ std::int64_t Weighing::value(std::span<const ProofLine> lines, std::span<const L
     for (std::int32_t c = 0; c < p.columns(); ++c) {
         std::int64_t& cost = cost_[idx(c)];
         const bool cut_off = cost == nothing;
-        cost = proof_scale - sum_[idx(lines_.x(c))] - (cut_off ? 0 : cost);
+        cost = lines_.cost(c) - sum_[idx(lines_.x(c))] - (cut_off ? 0 : cost);
         const bool must = p.fixed[idx(c)] != 0 || known[idx(c)] == Known::chosen;
         if (known[idx(c)] == Known::left_out) {
             none = none || must;

@@ -135,8 +135,13 @@ TEST_F(Verify, TheCheckerAgrees) {
     };
     const Path dir = *scratch / "checked";
     std::filesystem::copy(run(), dir, std::filesystem::copy_options::recursive);
-    vfplan_expect(0, {"plan", dir, "--set", "output.formats=['certificate']", "--quiet"});
-    EXPECT_EQ(check(dir), 0) << read_bytes(dir.string() + ".check");
+    for (const std::string method : {"greedy", "certified", "refined"}) {
+        vfplan_expect(0, with_sets({"plan", dir, "--quiet"},
+                                   {"output.formats=['certificate']", "plan.method=" + method,
+                                    "plan.proof_effort=100"}));
+        EXPECT_EQ(check(dir), 0) << read_bytes(dir.string() + ".check");
+        vfplan_expect(0, {"verify", dir, "--quiet"});
+    }
     std::string text = read_bytes(dir / "certificate.txt");
     const PlanTable plan = read_plan(dir / "plan.h5");
     EXPECT_EQ(text, text_of(plan.plan.certificate));

@@ -7,6 +7,8 @@
 #include "engine/proofs/lp.h"
 #include "engine/proofs/multipliers.h"
 #include "engine/proofs/weighing.h"
+#include "engine/proofs/windows.h"
+#include "tests/engine/proofs/checked.h"
 #include "tests/engine/search/small_problems.h"
 
 namespace vfplan {
@@ -103,6 +105,56 @@ TEST(Multipliers, MoreRoundsAreNeverWorse) {
             before = value;
         }
     }
+}
+
+// A long strip of columns: each overlaps with the next two and shares rows with some; larger than a
+// window.
+Problem strip(std::int32_t columns) {
+    Problem p;
+    std::mt19937_64 random(4);
+    const auto count = static_cast<std::uint64_t>(columns);
+    for (std::int32_t c = 0; c < columns; ++c) {
+        for (const std::int32_t by : {-2, -1, 1, 2}) {
+            if (c + by >= 0 && c + by < columns) p.near.to.push_back(c + by);
+        }
+        p.near.end_list();
+        p.fixed.push_back(c == columns / 2 ? 1 : 0);
+    }
+    for (std::uint64_t r = 0; r < count / 2; ++r) {
+        const auto first = static_cast<std::int32_t>(random() % count);
+        for (std::int32_t c = first; c < std::min(columns, first + 7); ++c) {
+            if (c == first || random() % 2 == 0) p.columns_of.to.push_back(c);
+        }
+        p.columns_of.end_list();
+    }
+    p.rows_of = transposed(p.columns_of, columns);
+    return p;
+}
+
+TEST(Windows, AddToTheBoundAndTakeNothing) {
+    const Problem p = strip(2600);
+    const Root root = root_of(p);
+    const auto weight = weigh_rows(p, 1300, 300);
+    const std::int64_t before = value_of(p, weight);
+    Effort effort{400'000'000};
+    const Weighed better = weigh_by_windows(p, root, weight, effort);
+    Lines lines(p, root);
+    Weighing weighing(lines);
+    const std::vector<Known> free(idx(p.columns()), Known::free);
+    const std::int64_t after = weighing.value(better.lines, better.weights, free);
+    // A strip of 2,600 that hangs together takes every second column; rows alone do not say so.
+    EXPECT_GT(after, before + 50 * proof_scale);
+    EXPECT_LE(stations_of(after), 1310);
+    NetworkProof proof;
+    proof.root_piece = root.row;
+    proof.root_station = root.column;
+    proof.bound = stations_of(after);
+    proof.lines = better.lines;
+    proof.cases = {{-1, better.weights}};
+    EXPECT_EQ(test::wrong_with(p, proof), "");
+    Effort none{0};
+    const Weighed same = weigh_by_windows(p, root, weight, none);
+    EXPECT_EQ(weighing.value(same.lines, same.weights, free), before);
 }
 
 // Every line is true of every plan, whatever set it names.
