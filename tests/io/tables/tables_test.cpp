@@ -109,31 +109,11 @@ PlanTable sample_plan() {
     t.plan.stations = {{4, 0, 0, 12.5, 12.5}, {2, 0, 1, 3, 9.25}, {9, 1, 2, 1, 1}};
     t.plan.links = {{0, 1, 0.375, {0.5, 0.375, 0.25, 0.125, 0.0625}}};
     t.plan.pieces = {PieceStatus::covered, PieceStatus::unreached, PieceStatus::no_viewpoint};
-    NetworkProof proof;
-    proof.bound = 2;
-    proof.gone = {{3, 4}};
-    proof.root_piece = 1;
-    proof.lines = {{LineKind::cover, 0, {}}, {LineKind::arcs, 2, {1, 4}}};
-    proof.cases = {{4, {}}, {-1, {{0, 7}}}, {-1, {{0, 1}, {1, 1LL << 40}}}};
+    const NetworkProof proof{2, {{3, 4}}, 1, -1, {{LineKind::arcs, 0, {2, 5}}}, {{-1, {{0, 7}}}}};
     t.plan.certificate.networks = {proof, {1, {}, -1, 5, {}, {{-1, {}}}}};
     t.key = "of coverage";
     t.overlap = {OverlapRatio::union_ang, 0.3};
     return t;
-}
-
-TEST(Tables, ACertificateReadsAsText) {
-    const std::string text = text_of(sample_plan().plan.certificate);
-    EXPECT_EQ(text,
-              "vfplan certificate 1\nscale 16777216\nnetwork 0 bound 2\nroot piece 1\ngone 3 by 4\n"
-              "line 0 cover 0\nline 1 arcs 2 in 1 4\ncase branch 4\ncase leaf\nweight 0 7\n"
-              "case leaf\nweight 0 1\nweight 1 1099511627776\n"
-              "network 1 bound 1\nroot station 5\ncase leaf\nend\n");
-    EXPECT_EQ(text_of(certificate_of(text, "it")), text);
-    for (std::size_t cut = 0; cut < text.size(); ++cut) {
-        EXPECT_THROW(certificate_of(text.substr(0, cut), "it"), IoError) << cut;
-    }
-    const std::string more = text + "end\n";
-    EXPECT_THROW(certificate_of(more, "it"), IoError);
 }
 
 TEST(Tables, FieldComesBack) {
