@@ -92,10 +92,10 @@ def plan_rows():
     parts = [(outer[:outer.index("plan_stations")], "engine/job/pipeline.cpp"),
              (inner, "engine/plan/planning.cpp"),
              (outer[outer.index("plan_stations"):], "engine/job/pipeline.cpp")]
-    formats = re.findall(r'"([a-z]+\.(?:csv|geojson|gpkg|png))"',
+    formats = re.findall(r'"([a-z]+\.(?:csv|geojson|gpkg|png|txt))"',
                          read("io/exports/text_tables.cpp") + read("io/exports/outputs.cpp"))
     said = {"read": "", "files": "plan.h5, " + ", ".join(formats), "hash": "summary.json"}
-    own = {"read_coverage", "plan_tables_of", "index_of", "independent_pieces", "overlap_pairs",
+    own = {"read_coverage", "plan_tables_of", "index_of", "overlap_pairs",
            "make_graph", "make_plan", "add_ratios", "measure", "find_join_thresholds", "write_plan",
            "write_outputs", "result_hash"}
     for text, where in parts:

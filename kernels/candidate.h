@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
+#include "kernels/certificate.h"
 #include "kernels/names.h"
 #include "kernels/overlap.h"
 #include "kernels/vec.h"
@@ -36,6 +38,10 @@ struct Candidate {
     CandidateKind kind = CandidateKind::joint;
     float vf_rad = 0;  // VF there
 };
+
+// Where candidates come from that a plan is made of. A bound holds over these alone, so it is told
+// beside each.
+inline constexpr std::string_view candidate_pool = "axis";
 
 // How a piece fares, before and after planning.
 enum class PieceStatus : std::uint8_t {
@@ -72,9 +78,7 @@ struct Plan {
     std::vector<Station> stations;
     std::vector<Link> links;
     std::vector<PieceStatus> pieces;
-    // Pieces no two of which any candidate covers together: each needs a station of its own, so
-    // their number is a lower bound for every plan over these candidates.
-    std::vector<std::int32_t> bound_pieces;
+    Certificate certificate;  // of how few stations could do
 };
 
 }  // namespace vfplan

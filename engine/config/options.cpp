@@ -59,7 +59,7 @@ TableOptions table_options(const Config& c) {
 }
 
 PlanOptions plan_options(const Config& c) {
-    return {c.plan.method, c.plan.loops, overlap_rule(c), c.plan.effort};
+    return {c.plan.method, c.plan.loops, overlap_rule(c), c.plan.effort, c.plan.proof_effort};
 }
 
 }  // namespace vfplan

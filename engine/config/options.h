@@ -56,17 +56,18 @@ struct TableOptions {
 };
 TableOptions table_options(const Config& config);
 
-enum class PlanMethod : std::uint8_t { greedy, refined };
+enum class PlanMethod : std::uint8_t { greedy, refined, certified };
 template <>
 struct Names<PlanMethod> {
-    static constexpr std::array<std::string_view, 2> all = {"greedy", "refined"};
+    static constexpr std::array<std::string_view, 3> all = {"greedy", "refined", "certified"};
 };
 
 struct PlanOptions {
     PlanMethod method = PlanMethod::refined;
     bool loops = true;
     OverlapRule overlap;
-    std::int64_t effort = 50;  // steps of search for each station of the greedy plan
+    std::int64_t effort = 50;          // steps of search for each station of the greedy plan
+    std::int64_t proof_effort = 8000;  // as prove() has it
 };
 PlanOptions plan_options(const Config& config);
 

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "engine/check/run_check.h"
 #include "engine/job/reread.h"
 #include "engine/job/run_dir.h"
 #include "engine/tables/scenes.h"
@@ -269,31 +270,16 @@ void check_rays(const std::vector<double>& error, Checks& checks) {
                            error.size(), mean, worst));
 }
 
-void check_bound(const CoverageTables& t, const CoverageEntries& entries, const Plan& plan,
+void check_bound(const CoverageTables& t, const CoverageEntries& entries, const PlanTable& table,
                  Checks& checks) {
-    std::vector<std::uint8_t> in_bound(plan.pieces.size(), 0);
-    for (const std::int32_t p : plan.bound_pieces) in_bound[idx(p)] = 1;
-    bool good = true;
-    std::vector<std::uint8_t> seen(plan.pieces.size(), 0);
-    constexpr std::int64_t rows_at_once = 4096;
-    for (std::int64_t first = 0; first < t.rows(); first += rows_at_once) {
-        const std::int64_t last = std::min(t.rows(), first + rows_at_once);
-        const std::int64_t from = t.begin[idx(first)];
-        const auto pieces = entries.pieces(from, t.begin[idx(last)] - from);
-        for (std::int64_t r = first; r < last; ++r) {
-            int count = 0;
-            for (std::int64_t i = t.begin[idx(r)]; i < t.begin[idx(r + 1)]; ++i) {
-                count += in_bound[idx(pieces[idx(i - from)])];
-                seen[idx(pieces[idx(i - from)])] = 1;
-            }
-            good = good && count <= 1;
-        }
-    }
-    for (const std::int32_t p : plan.bound_pieces) good = good && seen[idx(p)] != 0;
-    checks.add(good && plan.bound_pieces.size() <= plan.stations.size(),
-               fmt::format("at least {} stations are needed over these candidates: no candidate "
-                           "covers two of the {} pieces of the certificate",
-                           plan.bound_pieces.size(), plan.bound_pieces.size()));
+    const RunCheck found = check_plan(t, entries, table, table.plan.certificate);
+    checks.add(found.wrong.empty(),
+               found.wrong.empty()
+                   ? fmt::format("at least {} stations are needed over these {} candidates: the "
+                                 "certificate proves it for {} networks",
+                                 found.bound, t.candidates.size(), found.networks)
+                   : fmt::format("the certificate's bound of {} stations: {}", found.bound,
+                                 found.wrong.front()));
 }
 
 // True when every number in the plan points into the tables.
@@ -309,7 +295,6 @@ bool fits(const CoverageTables& t, const Plan& plan) {
     for (const Link& l : plan.links) {
         good = good && below(l.from, plan.stations.size()) && below(l.to, plan.stations.size());
     }
-    for (const std::int32_t p : plan.bound_pieces) good = good && below(p, plan.pieces.size());
     for (const PieceStatus s : plan.pieces) good = good && below(static_cast<int>(s), 4);
     return good;
 }
@@ -367,7 +352,7 @@ VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Pro
     progress.stage("field");
     check_field(scenes, threads, field, table.plan, config.visibility.kernel, checks);
     check_rays(found.ray_difference, checks);
-    check_bound(t, entries, table.plan, checks);
+    check_bound(t, entries, table, checks);
     check_site(config, t, field, checks);
     progress.finish();
     return checks.result();

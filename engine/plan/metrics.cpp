@@ -238,9 +238,8 @@ Metrics measure(const Threads& threads, const PlanInput& input, const Plan& plan
     static_cast<PathMeasures&>(m) =
         measure_paths(threads, graph, graph.size() <= wapl_of_all ? wapl_of_all : wapl_sample);
     measure_pieces(input, plan, places, range_max_m, m);
-    m.lower_bound = static_cast<std::int64_t>(plan.bound_pieces.size());
-    const auto n = static_cast<double>(plan.stations.size());
-    if (n > 0) m.gap = (n - static_cast<double>(m.lower_bound)) / n;
+    m.lower_bound = plan.certificate.bound();
+    m.gap = gap(static_cast<std::int64_t>(plan.stations.size()), m.lower_bound);
     return m;
 }
 

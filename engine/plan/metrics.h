@@ -43,8 +43,15 @@ struct Metrics : PathMeasures {
     std::vector<std::int64_t> range_tenths;    // station-piece pairs by tenths of range_max
     std::vector<std::int64_t> incidence_tens;  // the same by 10 degrees of incidence
     std::int64_t lower_bound = 0;
-    double gap = 0;  // (stations - lower_bound) / stations
+    double gap = 0;  // as below, of the plan
 };
+
+// The share of the stations that no proof says are needed.
+constexpr double gap(std::int64_t stations, std::int64_t lower_bound) {
+    return stations > 0
+               ? static_cast<double>(stations - lower_bound) / static_cast<double>(stations)
+               : 0;
+}
 
 // Thread count changes nothing. `places` serve the histograms only.
 Metrics measure(const Threads& threads, const PlanInput& input, const Plan& plan,

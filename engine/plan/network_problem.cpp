@@ -65,8 +65,9 @@ Problem NetworkProblems::of(const std::vector<std::int32_t>& members,
     for (const std::int32_t c : members) classes.divide(in_.rows.row(c), is_wanted);
 
     Problem out;
-    std::vector<std::int32_t> row;    // of classes
-    std::vector<std::int32_t> first;  // piece of each row
+    std::vector<std::int32_t> row;  // of classes
+    std::vector<std::int32_t>& first = piece_;
+    first.clear();
     for (std::size_t i = 0; i < members.size(); ++i) {
         column_[idx(members[i])] = static_cast<std::int32_t>(i);
     }

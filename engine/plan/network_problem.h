@@ -21,11 +21,14 @@ public:
     // that the same candidates cover are one row. Fixed: fixed[candidate].
     Problem of(const std::vector<std::int32_t>& members, const std::vector<std::int32_t>& owner,
                std::int32_t network, const std::vector<std::uint8_t>& fixed);
+    // A piece of each row of the last problem.
+    const std::vector<std::int32_t>& pieces() const { return piece_; }
 
 private:
     const PlanInput& in_;
     std::vector<std::int32_t> column_;  // of candidates
     std::vector<std::int32_t> class_;   // of pieces
+    std::vector<std::int32_t> piece_;   // of rows
 };
 
 }  // namespace vfplan

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "engine/graphs/cuts.h"
+#include "engine/plan/certify.h"
 #include "engine/plan/greedy.h"
 #include "engine/plan/loops.h"
 #include "engine/plan/order.h"
@@ -144,6 +145,7 @@ Plan make_plan(const Threads& threads, const PlanInput& in, const PlanOptions& o
     } else {
         refine(threads, in, options, owner, fixed, networks);
     }
+    plan.certificate = certify(threads, in, options, owner, fixed, networks);
     for (const Network& n : networks) {
         report.connected += static_cast<std::int64_t>(n.connected.size());
     }

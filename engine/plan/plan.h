@@ -20,8 +20,7 @@ struct PlanReport {
 
 // One network for each component of the graph that has something to add, that of the component
 // which can cover most length first; stations numbered by network, then in the order of choice.
-// Deterministic. Links have no ratios but that of the job yet (add_ratios), and there is no
-// certificate yet (independent_pieces).
+// Deterministic. Links have no ratios but that of the job yet (add_ratios).
 Plan make_plan(const Threads& threads, const PlanInput& input, const PlanOptions& options,
                PlanReport& report);
 

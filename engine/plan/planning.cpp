@@ -1,6 +1,5 @@
 #include "engine/plan/planning.h"
 
-#include "engine/plan/bound.h"
 #include "engine/plan/overlap_graph.h"
 
 namespace vfplan {
@@ -21,13 +20,11 @@ Planned plan_stations(const PlanTables& t, const PlanOptions& options, double ra
                       const Threads& threads, Progress& progress) {
     Planned out;
     progress.stage("overlap");
-    std::vector<std::int32_t> bound_pieces;
     std::vector<PairBlock> pairs;
     {
-        // One index serves overlap and certificate and is gone when the plan begins.
+        // The index is gone when the plan begins.
         const PieceIndex index =
             index_of(t.rows, static_cast<std::int64_t>(t.piece_length_m.size()));
-        bound_pieces = independent_pieces(t.rows, index);
         pairs = overlap_pairs(threads, t.rows, index, t.piece_length_m, options.overlap);
     }
     const Graph graph = make_graph(std::move(pairs));
@@ -36,7 +33,6 @@ Planned plan_stations(const PlanTables& t, const PlanOptions& options, double ra
     progress.stage("plan");
     out.plan = make_plan(threads, input, options, out.report);
     out.loops = options.loops;
-    out.plan.bound_pieces = std::move(bound_pieces);
     add_ratios(input, t.angles, out.plan);
     progress.stage("metrics");
     out.metrics = measure(threads, input, out.plan,

@@ -10,24 +10,6 @@
 namespace vfplan {
 namespace {
 
-// The same choice in a reduced problem: what went is replaced by what stands for it.
-Choice reduced_choice(const Reduced& reduced, std::int32_t columns, const Choice& whole) {
-    std::vector<std::int32_t> by(idx(columns));
-    for (std::int32_t c = 0; c < columns; ++c) by[idx(c)] = c;
-    for (auto g = reduced.gone.rbegin(); g != reduced.gone.rend(); ++g) {
-        by[idx(g->gone)] = by[idx(g->by)];
-    }
-    std::vector<std::int32_t> number(idx(columns), -1);
-    for (std::size_t i = 0; i < reduced.column.size(); ++i) {
-        number[idx(reduced.column[i])] = static_cast<std::int32_t>(i);
-    }
-    Choice out;
-    for (const std::int32_t c : whole) out.push_back(number[idx(by[idx(c)])]);
-    std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
-    return out;
-}
-
 Choice searched(const Threads& threads, const Problem& whole, Reduce what, const Choice& start,
                 const SearchOptions& options) {
     const Reduced reduced = reduce(whole, what);

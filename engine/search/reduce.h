@@ -33,4 +33,8 @@ enum class Reduce : std::uint8_t {
 // Fixed columns stay.
 Reduced reduce(const Problem& problem, Reduce what);
 
+// The same choice in a reduced problem: what went is replaced by what stands for it. `columns`: of
+// the whole problem.
+Choice reduced_choice(const Reduced& reduced, std::int32_t columns, const Choice& whole);
+
 }  // namespace vfplan

@@ -6,6 +6,7 @@
 
 #include "io/features/crs.h"
 #include "io/files.h"
+#include "io/tables/certificate_text.h"
 #include "io/tables/coverage_file.h"
 #include "kernels/index.h"
 
@@ -123,6 +124,14 @@ constexpr Output all[] = {
          write_pieces_csv(path, r.tables, r.plan);
      },
      {0, 62},
+     {},
+     {}},
+    {"certificate",
+     "certificate.txt",
+     [](const std::filesystem::path& path, const Results& r) {
+         write_text(path, text_of(r.plan.certificate));
+     },
+     {200, 0, 40},
      {},
      {}},
 };

@@ -1,5 +1,5 @@
-// The plan as plain tables for other programs: CSV and GeoJSON, in the input's coordinates
-// (docs/file_format.md).
+// The plan as plain text for other programs: CSV and GeoJSON, in the input's coordinates, and the
+// proof of its bound (docs/file_format.md).
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace vfplan {
 
-// stations.geojson, stations.csv, links.csv, pieces.csv.
+// stations.geojson, stations.csv, links.csv, pieces.csv, certificate.txt.
 std::span<const Output> text_outputs();
 
 }  // namespace vfplan

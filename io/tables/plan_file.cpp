@@ -5,6 +5,7 @@
 #include "io/checksum.h"
 #include "io/columns.h"
 #include "io/h5_reader.h"
+#include "io/tables/certificate_text.h"
 #include "io/tables/shard_index.h"
 
 namespace vfplan {
@@ -35,10 +36,12 @@ void write_plan(const std::filesystem::path& path, const PlanTable& t) {
     }
     write_codes(file, "piece_status", t.plan.pieces);
     file.group("certificate");
-    file.write("certificate/pieces", t.plan.bound_pieces);
+    const std::string proof = text_of(t.plan.certificate);
+    file.write("certificate/text", std::vector<std::uint8_t>(proof.begin(), proof.end()));
+    file.attribute("certificate", "bound", t.plan.certificate.bound());
     file.attribute("certificate", "meaning",
-                   "no candidate covers two of these pieces, so every plan over these candidates "
-                   "that covers them has at least as many stations");
+                   "text, in UTF-8, that proves that no plan over these candidates has fewer "
+                   "stations than the bound");
     finish_table(file);
 }
 
@@ -72,7 +75,9 @@ PlanTable read_plan(const std::filesystem::path& path) {
     }
     t.plan.pieces = column<PieceStatus>(file.read<std::uint8_t>("piece_status"),
                                         [](std::uint8_t v) { return v; });
-    t.plan.bound_pieces = file.read<std::int32_t>("certificate/pieces");
+    const auto proof = file.read<std::uint8_t>("certificate/text");
+    t.plan.certificate =
+        certificate_of(std::string(proof.begin(), proof.end()), path.string() + " certificate");
     return t;
 }
 

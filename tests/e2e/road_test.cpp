@@ -55,6 +55,14 @@ void expect_whole(const Path& dir) {
     }
     EXPECT_EQ(s["result_sha256"].get<std::string>().size(), 64U);
     EXPECT_LE(s["lower_bound"], s["stations"]);
+    for (const std::string kind : {"connected", "loops"}) {
+        const auto stations = s["stations_" + kind].get<double>();
+        const auto bound = s["bound_" + kind].get<double>();
+        EXPECT_DOUBLE_EQ(s["gap_" + kind].get<double>(), (stations - bound) / stations) << kind;
+        EXPECT_LE(bound, stations) << kind;
+    }
+    EXPECT_EQ(s["candidate_pool"]["name"], "axis");
+    EXPECT_EQ(s["candidate_pool"]["candidates"], s["candidates"]);
 }
 
 void expect_tables_agree(const Path& dir) {

@@ -1,8 +1,11 @@
 // `verify` says no to a plan that somebody changed.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <functional>
 
+#include "io/tables/certificate_text.h"
 #include "io/tables/coverage_file.h"
 #include "io/tables/field_file.h"
 #include "io/tables/field_tiles.h"
@@ -113,11 +116,40 @@ TEST_F(Verify, NoWhenACoveredPieceIsSaidToHaveNoViewpoint) {
     }));
 }
 
-TEST_F(Verify, NoWhenTheCertificateNamesPiecesOfOneStation) {
+TEST_F(Verify, NoWhenTheCertificateClaimsMore) {
+    expect_no(after_plan([](PlanTable& t) { ++t.plan.certificate.networks[0].bound; }));
+}
+
+TEST_F(Verify, NoWhenTheCertificateWeighsLess) {
     expect_no(after_plan([](PlanTable& t) {
-        t.plan.bound_pieces = CoverageEntries(run() + "/coverage.h5").pieces(0, 2);
-        std::sort(t.plan.bound_pieces.begin(), t.plan.bound_pieces.end());
+        for (LineWeight& w : t.plan.certificate.networks[0].cases[0].weights) w.weight /= 2;
     }));
+}
+
+// The same by the program that has nothing of the planner in it.
+TEST_F(Verify, TheCheckerAgrees) {
+    const auto check = [](const std::string& dir) {
+        const std::string program = (Path(VFPLAN_BINARY).parent_path() / "vfplan_check").string();
+        return std::system(
+            fmt::format("\"{}\" \"{}\" > \"{}.check\" 2>&1", program, dir, dir).c_str());
+    };
+    const Path dir = *scratch / "checked";
+    std::filesystem::copy(run(), dir, std::filesystem::copy_options::recursive);
+    for (const std::string method : {"greedy", "certified", "refined"}) {
+        vfplan_expect(0, with_sets({"plan", dir, "--quiet"},
+                                   {"output.formats=['certificate']", "plan.method=" + method,
+                                    "plan.proof_effort=100"}));
+        EXPECT_EQ(check(dir), 0) << read_bytes(dir.string() + ".check");
+        vfplan_expect(0, {"verify", dir, "--quiet"});
+    }
+    std::string text = read_bytes(dir / "certificate.txt");
+    const PlanTable plan = read_plan(dir / "plan.h5");
+    EXPECT_EQ(text, text_of(plan.plan.certificate));
+    const std::size_t at = text.find("bound ") + 6;
+    text[at] = static_cast<char>(text[at] + 1);
+    std::ofstream(dir / "certificate.txt", std::ios::binary) << text;
+    EXPECT_NE(check(dir), 0);
+    EXPECT_NE(read_bytes(dir.string() + ".check").find("network 0"), std::string::npos);
 }
 
 // A whole field of this job by its hashes, with other values.
@@ -195,7 +227,6 @@ TEST_F(Verify, NoToNumbersOutOfRange) {
     expect_refused(after_plan([](PlanTable& t) { t.plan.stations[0].candidate = -1; }), "plan.h5");
     expect_refused(after_plan([](PlanTable& t) { t.plan.links[0].to = 1'000'000; }), "plan.h5");
     expect_refused(after_plan([](PlanTable& t) { t.plan.pieces.resize(3); }), "plan.h5");
-    expect_refused(after_plan([](PlanTable& t) { t.plan.bound_pieces[0] = 1'000'000; }), "plan.h5");
 }
 
 TEST_F(Verify, DamagedOrMissingFilesAreNamed) {

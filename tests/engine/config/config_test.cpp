@@ -52,7 +52,7 @@ Config unusual() {
         "tile_cells = 128\n"
         "[coverage]\npartition_m = 0.333\nvisible_fraction = 0.7\n"
         "[overlap]\nratio = 'union_ang'\nthreshold = 0.15\n"
-        "[plan]\nmethod = 'greedy'\nloops = false\neffort = 7\n"
+        "[plan]\nmethod = 'greedy'\nloops = false\neffort = 7\nproof_effort = 9\n"
         "required = [[1, 2.5], [3, -4]]\nforbidden = 'no/go.geojson'\nexisting = [[5e6, 0.1]]\n"
         "[output]\nformats = ['png']\nmap_px = 300\n",
         "job.toml", "/jobs/one", {});
@@ -200,7 +200,7 @@ TEST(Config, ParametersMustFitEachOther) {
                      {side, "multiple of 4"});
     }
     EXPECT_EQ(message("visibility.rays = 16\n"), "");
-    expect_words(message("plan.method = \"certified\"\n"), {"must be one of", "refined"});
+    expect_words(message("plan.method = \"cleverest\"\n"), {"must be one of", "refined"});
     EXPECT_THROW(parse_config("", "job.toml", "/", {}), UsageError);
     EXPECT_THROW(read_config("/no/such/job.toml", {}), UsageError);
 }

@@ -211,7 +211,9 @@ TEST(Pieces, IncidenceByTensOfDegrees) {
 TEST(Bound, GapIsTheShareThatMightBeSpared) {
     const HandMade h = hand_made({1, 1}, {{0}, {1}, {}, {}}, {});
     Plan plan = plan_with({0, 0, 0, 0}, {}, h.status);
-    plan.bound_pieces = {0, 1, 1};
+    plan.certificate.networks.resize(2);
+    plan.certificate.networks[0].bound = 2;
+    plan.certificate.networks[1].bound = 1;
     const std::vector<Wall> walls(2, {Vec2d(1, 1), Vec2d(2, 1)});
     const Metrics m = measure(Threads(1), h.input(), plan, h.places(walls), 10);
     EXPECT_EQ(m.lower_bound, 3);

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "engine/graphs/cuts.h"
-#include "engine/plan/bound.h"
 #include "engine/plan/link_ratios.h"
 #include "tests/engine/plan/hand_made.h"
 
@@ -251,53 +250,6 @@ TEST(Planner, LoopsAreCountedBeforeAndAfter) {
     EXPECT_EQ(report.off_cycle_after, 1);  // 0 hangs on 1 whatever is added
     EXPECT_EQ(plan.stations.size(), 4U);
     EXPECT_EQ(plan_of(h, refined).stations.size(), 3U);
-}
-
-// Fewest candidates that cover everything coverable, by trying all sets.
-int fewest(const HandMade& h) {
-    const auto n = static_cast<int>(h.candidates.size());
-    int best = n;
-    for (unsigned set = 0; set < 1U << n; ++set) {
-        Chosen chosen;
-        for (int c = 0; c < n; ++c) {
-            if ((set >> c & 1U) != 0) chosen.push_back(c);
-        }
-        if (static_cast<int>(chosen.size()) >= best) continue;
-        bool all = true;
-        for (std::int32_t p = 0; p < h.pieces() && all; ++p) {
-            all = h.status[static_cast<std::size_t>(p)] != PieceStatus::covered ||
-                  h.covered_by(chosen, p);
-        }
-        if (all) best = static_cast<int>(chosen.size());
-    }
-    return best;
-}
-
-TEST(Bound, NeverAboveTheFewestStations) {
-    std::size_t sum = 0;
-    for (std::uint64_t seed = 0; seed < 25; ++seed) {
-        const HandMade h = random_hand_made(seed, 11, 12);
-        const std::vector<std::int32_t> pieces =
-            independent_pieces(h.rows, index_of(h.rows, h.pieces()));
-        sum += pieces.size();
-        EXPECT_LE(pieces.size(), static_cast<std::size_t>(fewest(h)));
-        EXPECT_LE(pieces.size(), plan_of(h, with_loops).stations.size());
-        EXPECT_TRUE(std::is_sorted(pieces.begin(), pieces.end()));
-        for (std::int32_t c = 0; c < 11; ++c) {  // no candidate covers two of them
-            EXPECT_LE(std::count_if(pieces.begin(), pieces.end(),
-                                    [&](std::int32_t p) { return h.covers(c, p); }),
-                      1);
-        }
-        for (const std::int32_t p : pieces) {
-            EXPECT_EQ(h.status[static_cast<std::size_t>(p)], PieceStatus::covered);
-        }
-    }
-    EXPECT_GT(sum, 40U);  // else it bounds nothing
-}
-
-TEST(Bound, IsTightForCandidatesWithNothingInCommon) {
-    const HandMade h = hand_made({1, 1, 1, 1}, {{0, 1}, {2}, {3}}, {{0, 1, 0.5}, {1, 2, 0.5}});
-    EXPECT_EQ(independent_pieces(h.rows, index_of(h.rows, h.pieces())).size(), 3U);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include "io/tables/certificate_text.h"
 #include "io/tables/coverage_file.h"
 #include "io/tables/field_file.h"
 #include "io/tables/field_tiles.h"
@@ -108,7 +109,8 @@ PlanTable sample_plan() {
     t.plan.stations = {{4, 0, 0, 12.5, 12.5}, {2, 0, 1, 3, 9.25}, {9, 1, 2, 1, 1}};
     t.plan.links = {{0, 1, 0.375, {0.5, 0.375, 0.25, 0.125, 0.0625}}};
     t.plan.pieces = {PieceStatus::covered, PieceStatus::unreached, PieceStatus::no_viewpoint};
-    t.plan.bound_pieces = {0, 2};
+    const NetworkProof proof{2, {{3, 4}}, 1, -1, {{LineKind::arcs, 0, {2, 5}}}, {{-1, {{0, 7}}}}};
+    t.plan.certificate.networks = {proof, {1, {}, -1, 5, {}, {{-1, {}}}}};
     t.key = "of coverage";
     t.overlap = {OverlapRatio::union_ang, 0.3};
     return t;
@@ -332,7 +334,8 @@ TEST(Tables, PlanComesBack) {
     EXPECT_EQ(got.plan.links[0].overlap, 0.375);
     EXPECT_EQ(got.plan.links[0].ratios, t.plan.links[0].ratios);
     EXPECT_EQ(got.plan.pieces, t.plan.pieces);
-    EXPECT_EQ(got.plan.bound_pieces, t.plan.bound_pieces);
+    EXPECT_EQ(text_of(got.plan.certificate), text_of(t.plan.certificate));
+    EXPECT_EQ(got.plan.certificate.bound(), 3);
     EXPECT_EQ(got.key, t.key);
     EXPECT_EQ(got.overlap.ratio, OverlapRatio::union_ang);
     EXPECT_EQ(got.overlap.threshold, 0.3);
