@@ -113,7 +113,13 @@ RunCheck check_plan(const CoverageTables& t, const CoverageEntries& entries, con
     // The plan: each network of stations of its own component that cover its pieces and hang
     // together.
     std::vector<std::int32_t> network_of(near.size(), -1);
-    for (const Station& s : table.plan.stations) network_of[idx(s.candidate)] = s.network;
+    for (const Station& s : table.plan.stations) {
+        if (s.candidate < 0 || idx(s.candidate) >= near.size()) {
+            out.wrong.emplace_back("a station is no candidate");
+            return out;
+        }
+        network_of[idx(s.candidate)] = s.network;
+    }
     std::vector<std::int32_t> covered(owner.size(), -1);
     const CheckTables tables{rows, near, owner, standing};
     ProofCheck proofs(tables);

@@ -6,7 +6,9 @@
 namespace vfplan {
 namespace {
 
-constexpr std::int64_t work_by_size = 3;  // of an iteration, as it turned out
+// Of an iteration, as it turned out: without and with ways.
+constexpr std::int64_t work_by_size = 3;
+constexpr std::int64_t work_with_ways = 6;
 constexpr std::size_t ways_at_once = 300;
 constexpr std::size_t few_ways = 2500;  // come in all at once
 
@@ -140,7 +142,8 @@ bool Relaxation::solve(Effort& effort) {
     const double limit = static_cast<double>(stations_ - 1) + 1e-3;
     bool primal = false;
     while (true) {
-        const std::int64_t size = work_by_size * (lp_.rows() + lp_.columns());
+        const std::int64_t size =
+            (ways_ ? work_with_ways : work_by_size) * (lp_.rows() + lp_.columns());
         const std::int64_t before = lp_.iterations();
         const LpEnd end = lp_.solve(1 + effort.left / size, limit, primal);
         effort.spend((lp_.iterations() - before + 1) * size);
