@@ -74,7 +74,7 @@ struct CoverageFolder {
                                          {{4, 5}, 12, CandidateKind::joint, 1.5F}};
     std::vector<CoverageRow> rows = {{{0, 0.5F, 0.125F}, {3, 1, 0.75F}}, {}, {{3, 1, 0.5F}}};
     std::vector<std::filesystem::path> blocks;
-    CoverageInfo info{{1, 2}, "", "key", "{}"};
+    CoverageInfo info{{1, 2}, "", "key", "{}", {}};
 
     CoverageFolder() {
         Wall w;
