@@ -27,17 +27,22 @@ public:
           steps_(idx(p.cells()), 0),
           next_(idx(p.cells()), joins_nothing) {}
 
-    Joined run() {
+    Joined run(std::int64_t viewers) {
         join_by_one_cell();
+        complete_ = viewers_of_loose_cells() <= viewers;
         for (std::int32_t steps = 1; left_ > 1; ++steps) {
-            std::vector<Edge> edges = meetings(steps);
+            std::vector<Edge> edges;
+            if (!meetings(steps, viewers, edges)) {
+                complete_ = false;
+                break;
+            }
             // A chain over cells that are farther from candidates is longer than this.
             join_over(edges, steps + 1);
             if (step_on(steps)) continue;
             join_over(edges, std::numeric_limits<std::int32_t>::max());
             break;
         }
-        join_the_rest();
+        if (complete_) join_the_rest();
         return result();
     }
 
@@ -138,21 +143,41 @@ private:
         }
     }
 
+    bool is_left_out(std::int32_t cell) const { return !complete_ && steps_[idx(cell)] == 0; }
+
+    // What it takes to look at all pairs of cells that are beside no candidate.
+    std::int64_t viewers_of_loose_cells() const {
+        std::vector<std::int64_t> viewers(p_.local.piece_length_m.size(), 0);
+        for (const std::int32_t piece : p_.local.rows.piece) ++viewers[idx(piece)];
+        std::int64_t sum = 0;
+        for (std::int32_t c = 0; c < p_.cells(); ++c) {
+            if (steps_[idx(c)] > 0) continue;
+            for (const std::int32_t piece : p_.local.rows.row(p_.candidates() + c)) {
+                sum += viewers[idx(piece)];
+            }
+        }
+        return sum;
+    }
+
     std::vector<std::int32_t> roots() {
         std::vector<std::int32_t> out(idx(p_.local.rows.size()));
-        for (std::int32_t n = 0; n < p_.local.rows.size(); ++n)
-            out[idx(n)] = sets_.root(element(n));
+        for (std::int32_t n = 0; n < p_.local.rows.size(); ++n) {
+            const bool out_of_it = n >= p_.candidates() && is_left_out(n - p_.candidates());
+            out[idx(n)] = out_of_it ? left_out : sets_.root(element(n));
+        }
         return out;
     }
 
     // Where sets meet. On the way, of the cells that are on no chain yet those beside one that is
-    // `steps` from a candidate: reached_.
-    std::vector<Edge> meetings(std::int32_t steps) {
+    // `steps` from a candidate: reached_. False when there are too many pairs to look at.
+    bool meetings(std::int32_t steps, std::int64_t most, std::vector<Edge>& out) {
         const std::int32_t first = p_.candidates();
         std::vector<std::int32_t> kind(idx(p_.local.rows.size()), 0);
         for (std::int32_t c = 0; c < p_.cells(); ++c) kind[idx(first + c)] = steps_[idx(c)];
         const std::vector<std::int32_t> set = roots();
         const Contested contested = contested_of(p_, totals_, set, kind, p_.rule.threshold);
+        const auto pieces = static_cast<std::int64_t>(p_.local.piece_length_m.size());
+        if (pairs_across(contested, pieces) > most) return false;
         std::vector<std::vector<Edge>> found(contested.node.size() / rows_at_once + 1);
         constexpr std::int32_t nobody = std::numeric_limits<std::int32_t>::max();
         reached_.assign(idx(p_.cells()), nobody);
@@ -178,11 +203,10 @@ private:
                     reach(a, b);
                 }
             });
-        std::vector<Edge> out;
         for (const auto& some : found) out.insert(out.end(), some.begin(), some.end());
         std::sort(out.begin(), out.end(),
                   [](const Edge& p, const Edge& q) { return p.order() < q.order(); });
-        return out;
+        return true;
     }
 
     void join_over(const std::vector<Edge>& edges, std::int32_t longest) {
@@ -235,7 +259,8 @@ private:
         };
         for (std::int32_t c = 0; c < p_.components; ++c) out.set_of_component.push_back(name_of(c));
         for (std::int32_t c = 0; c < p_.cells(); ++c)
-            out.set_of_cell.push_back(name_of(of_cell(c)));
+            out.set_of_cell.push_back(is_left_out(c) ? left_out : name_of(of_cell(c)));
+        out.complete = complete_;
         out.next = std::move(next_);
         out.connectors = std::move(connectors_);
         std::sort(out.connectors.begin(), out.connectors.end());
@@ -247,8 +272,9 @@ private:
     const Threads& threads_;
     const JoinProblem& p_;
     std::vector<SeenTotal> totals_;
-    DisjointSets sets_;                // of components, then of cells
-    std::int64_t left_;                // sets with candidates
+    DisjointSets sets_;  // of components, then of cells
+    std::int64_t left_;  // sets with candidates
+    bool complete_ = true;
     std::vector<std::int32_t> steps_;  // of each cell, to a candidate; 0: not known
     std::vector<std::int32_t> next_;
     std::vector<std::int32_t> reached_;
@@ -257,12 +283,13 @@ private:
 
 }  // namespace
 
-Joined join(const Threads& threads, const JoinProblem& problem) {
-    return Joiner(threads, problem).run();
+Joined join(const Threads& threads, const JoinProblem& problem, std::int64_t viewers) {
+    return Joiner(threads, problem).run(viewers);
 }
 
 std::vector<SetPair> largest_overlaps(const Threads& threads, const JoinProblem& p,
                                       const Joined& joined) {
+    if (!joined.complete) return {};
     const std::vector<SeenTotal> totals = seen_totals(p.local.rows, p.local.piece_length_m);
     std::vector<std::int32_t> set;
     for (const std::int32_t c : p.component) set.push_back(joined.set_of_component[idx(c)]);

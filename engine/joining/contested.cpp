@@ -37,6 +37,7 @@ Contested contested_of(const JoinProblem& p, const std::vector<SeenTotal>& total
     const std::vector<double>& length_m = p.local.piece_length_m;
     std::vector<std::int32_t> seen_from(p.local.piece_length_m.size(), nobody);
     for (std::int32_t n = 0; n < all.size(); ++n) {
+        if (set[idx(n)] == left_out) continue;
         for (const std::int32_t piece : all.row(n)) {
             std::int32_t& from = seen_from[idx(piece)];
             from = from == nobody || from == set[idx(n)] ? set[idx(n)] : several;
@@ -48,6 +49,7 @@ Contested contested_of(const JoinProblem& p, const std::vector<SeenTotal>& total
     std::vector<std::int32_t> kept;
     std::map<std::tuple<std::int32_t, std::int32_t, std::vector<std::int32_t>>, std::int32_t> best;
     for (std::int32_t n = 0; n < all.size(); ++n) {
+        if (set[idx(n)] == left_out) continue;
         std::vector<std::int32_t> pieces;
         for (const std::int32_t piece : all.row(n)) {
             if (shared(piece)) pieces.push_back(piece);
@@ -86,6 +88,19 @@ Contested contested_of(const JoinProblem& p, const std::vector<SeenTotal>& total
         out.next_set[r] = static_cast<std::int32_t>(next);
     }
     return out;
+}
+
+std::int64_t pairs_across(const Contested& contested, std::int64_t pieces) {
+    const PieceIndex index = index_of(contested.rows, pieces);
+    std::int64_t sum = 0;
+    for (std::int32_t r = 0; r < contested.rows.size(); ++r) {
+        for (const std::int32_t piece : contested.rows.row(r)) {
+            const std::span<const std::int32_t> viewers = index.rows_of(piece);
+            sum += viewers.end() -
+                   std::lower_bound(viewers.begin(), viewers.end(), contested.next_set[idx(r)]);
+        }
+    }
+    return sum;
 }
 
 }  // namespace vfplan

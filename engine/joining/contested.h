@@ -27,10 +27,13 @@ struct Contested {
 };
 
 // `set` and `kind` of each node: nodes of one kind in one set stand for each other. Who cannot
-// overlap anyone by `least` is left out.
+// overlap anyone by `least` is left out, and who is of no set.
 Contested contested_of(const JoinProblem& p, const std::vector<SeenTotal>& totals,
                        const std::vector<std::int32_t>& set, const std::vector<std::int32_t>& kind,
                        double least);
+
+// How often across() looks at a row for a piece of another.
+std::int64_t pairs_across(const Contested& contested, std::int64_t pieces);
 
 // Calls f(block, a, b, overlap) for nodes a < b of different sets that share a piece, from any
 // thread; a block is one thread's at a time. at_least(a, b): overlaps below it need not come.

@@ -98,7 +98,7 @@ Apart Leader::apart(int rounds, const CandidateList& list) {
     know_spaces();
     const State& s = state(rounds);
     Apart out;
-    out.free_cells = site_.facts().free_cells;
+    if (s.joined.complete) out.free_cells = site_.facts().free_cells;
     out.disputed_cells = static_cast<std::int64_t>(s.cells.size());
     out.rule = rule_;
     out.pairs = largest_overlaps(job_.threads, problem(s), s.joined);
@@ -233,6 +233,7 @@ std::vector<std::int32_t> Leader::seen_by_sets(const State& s) const {
     }
     const auto first = static_cast<std::int32_t>(s.component.size());
     for (std::size_t c = 0; c < s.cells.size(); ++c) {
+        if (s.joined.set_of_cell[c] == left_out) continue;
         for (const std::int32_t p : s.local.rows.row(first + static_cast<std::int32_t>(c))) {
             see(p + s.first_piece, s.joined.set_of_cell[c]);
         }

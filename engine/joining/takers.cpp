@@ -32,7 +32,7 @@ std::vector<std::int32_t> find_takers(const TakerProblem& p) {
     std::vector<std::vector<std::int32_t>> cells_of(idx(sets));
     for (std::int32_t c = 0; c < cells; ++c) {
         const std::int32_t set = p.joined.set_of_cell[idx(c)];
-        if (set < sets) cells_of[idx(set)].push_back(c);  // others have no candidates
+        if (set >= 0 && set < sets) cells_of[idx(set)].push_back(c);  // others: no candidates
     }
     std::vector<std::int32_t> last(p.local.piece_length_m.size(),
                                    -1);  // set that a piece is noted of
@@ -66,7 +66,7 @@ std::vector<std::int32_t> find_takers(const TakerProblem& p) {
         std::int32_t best = -1;
         for (std::int32_t c = 0; c < cells; ++c) {
             const std::int32_t set = p.joined.set_of_cell[idx(c)];
-            if (set >= sets || lacks[idx(set)].empty()) continue;
+            if (set < 0 || set >= sets || lacks[idx(set)].empty()) continue;
             const auto row = pieces_of(c);
             const auto n = std::count_if(row.begin(), row.end(), [&](std::int32_t piece) {
                 return lacks[idx(set)].contains(piece + p.first_piece);

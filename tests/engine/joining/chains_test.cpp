@@ -78,6 +78,20 @@ TEST(Chains, TheShortestOnesAreTaken) {
     EXPECT_EQ(three.joined().next[1], 0);
 }
 
+TEST(Chains, TooManyCellsBesideNoCandidateAreLeftOut) {
+    const Rows three({span(0, 10), span(20, 30)}, {span(5, 15), span(10, 20), span(15, 25)}, half);
+    const Joined j = join(Threads(1), three.problem(), 10);
+    EXPECT_FALSE(j.complete);
+    EXPECT_TRUE(j.connectors.empty());
+    EXPECT_EQ(j.set_of_cell, (std::vector<std::int32_t>{0, left_out, 1}));
+    EXPECT_TRUE(three.joined().complete);
+    const Rows two({span(0, 10), span(15, 25)}, {span(5, 15), span(10, 20), {12}, {13}, {14}},
+                   half);
+    const Joined both = join(Threads(1), two.problem(), 7);
+    EXPECT_FALSE(both.complete);
+    EXPECT_EQ(both.connectors, (std::vector<std::int32_t>{0, 1}));
+}
+
 TEST(Chains, WhatJoinsMostGoesFirst) {
     // Cells 0 and 1 join two each, cell 2 all three.
     const Rows r(
