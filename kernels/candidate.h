@@ -64,6 +64,11 @@ struct Station {
     std::int32_t order = 0;    // in which it was chosen, from 0
     double new_length_m = 0;   // covered by it and by no station chosen before it
     double seen_length_m = 0;  // covered by it
+    // What it is to the plan.
+    double only_length_m = 0;   // covered by it and no other station
+    bool articulation = false;  // its network falls apart without it
+    bool bridge_end = false;    // a link of it is the only way between its two sides
+    double needed_overlap = 0;  // weakest link at it that its network's strongest tree runs along
 };
 
 // Two stations that overlap by at least the threshold. Indices of stations, from < to.

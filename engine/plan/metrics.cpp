@@ -6,18 +6,12 @@
 #include <numeric>
 
 #include "engine/graphs/cuts.h"
+#include "engine/plan/plan_graph.h"
 #include "kernels/angle.h"
-#include "kernels/disjoint_sets.h"
 #include "kernels/index.h"
 
 namespace vfplan {
 namespace {
-
-Graph graph_of(const Plan& plan) {
-    std::vector<OverlapPair> pairs;
-    for (const Link& l : plan.links) pairs.push_back({l.from, l.to, l.overlap});
-    return make_graph(static_cast<std::int32_t>(plan.stations.size()), pairs);
-}
 
 // Shortest weighted paths from one station: their sum and how many stations they reach.
 struct Reached {
@@ -133,18 +127,9 @@ private:
 
 // The smallest overlap on a maximum spanning tree of the main network.
 double bottleneck(const Plan& plan) {
-    DisjointSets sets(static_cast<std::int64_t>(plan.stations.size()));
-    std::vector<Link> links;
-    for (const Link& l : plan.links) {
-        if (plan.stations[idx(l.from)].network == 0) links.push_back(l);
-    }
-    std::stable_sort(links.begin(), links.end(),
-                     [](const Link& a, const Link& b) { return a.overlap > b.overlap; });
     double weakest = 0;
-    for (const Link& l : links) {
-        if (sets.together(l.from, l.to)) continue;
-        sets.merge(l.from, l.to);
-        weakest = l.overlap;
+    for (const Link& l : strongest_tree(plan)) {
+        if (plan.stations[idx(l.from)].network == 0) weakest = l.overlap;
     }
     return weakest;
 }

@@ -1,6 +1,7 @@
 #include "engine/plan/planning.h"
 
 #include "engine/plan/overlap_graph.h"
+#include "engine/plan/roles.h"
 
 namespace vfplan {
 
@@ -34,6 +35,7 @@ Planned plan_stations(const PlanTables& t, const PlanOptions& options, double ra
     out.plan = make_plan(threads, input, options, out.report);
     out.loops = options.loops;
     add_ratios(input, t.angles, out.plan);
+    add_roles(input, out.plan);
     progress.stage("metrics");
     out.metrics = measure(threads, input, out.plan,
                           PiecePlaces(t.coverage.walls, t.coverage.pieces), range_max_m);

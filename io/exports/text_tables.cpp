@@ -18,12 +18,18 @@ const Candidate& candidate_of(const CoverageTables& t, const Station& s) {
 }
 
 std::string stations_csv(const CoverageTables& t, const Plan& plan) {
-    std::string out = "id,x,y,component,order,new_length_m,seen_length_m\n";
+    std::string out =
+        "id,x,y,component,order,new_length_m,seen_length_m,kind,only_length_m,"
+        "articulation,bridge_end,needed_overlap\n";
     for (std::size_t i = 0; i < plan.stations.size(); ++i) {
         const Station& s = plan.stations[i];
-        const Vec2d p = t.origin + candidate_of(t, s).at;
-        fmt::format_to(std::back_inserter(out), "{},{:.4f},{:.4f},{},{},{:.3f},{:.3f}\n", i, p.x(),
-                       p.y(), s.network, s.order, s.new_length_m, s.seen_length_m);
+        const Candidate& c = candidate_of(t, s);
+        const Vec2d p = t.origin + c.at;
+        fmt::format_to(std::back_inserter(out),
+                       "{},{:.4f},{:.4f},{},{},{:.3f},{:.3f},{},{:.3f},{:d},{:d},{:.6f}\n", i,
+                       p.x(), p.y(), s.network, s.order, s.new_length_m, s.seen_length_m,
+                       name_of(c.kind), s.only_length_m, s.articulation, s.bridge_end,
+                       s.needed_overlap);
     }
     return out;
 }
@@ -45,11 +51,13 @@ std::string stations_geojson(const CoverageTables& t, const Plan& plan) {
             "{{\"type\": \"Feature\", \"properties\": {{\"id\": {}, \"x_m\": {:.4f}, \"y_m\": "
             "{:.4f}, "
             "\"component\": {}, \"order\": {}, \"kind\": \"{}\", \"new_length_m\": {:.3f}, "
-            "\"seen_length_m\": {:.3f}}}, \"geometry\": {{\"type\": \"Point\", \"coordinates\": "
+            "\"seen_length_m\": {:.3f}, \"only_length_m\": {:.3f}, \"articulation\": {}, "
+            "\"bridge_end\": {}, \"needed_overlap\": {:.6f}}}, \"geometry\": {{\"type\": "
+            "\"Point\", \"coordinates\": "
             "[{:.{}f}, {:.{}f}]}}}}{}\n",
             i, p.x(), p.y(), s.network, s.order, name_of(c.kind), s.new_length_m, s.seen_length_m,
-            shown.x(), degrees ? 9 : 4, shown.y(), degrees ? 9 : 4,
-            i + 1 < plan.stations.size() ? "," : "");
+            s.only_length_m, s.articulation, s.bridge_end, s.needed_overlap, shown.x(),
+            degrees ? 9 : 4, shown.y(), degrees ? 9 : 4, i + 1 < plan.stations.size() ? "," : "");
     }
     return out + "]}\n";
 }

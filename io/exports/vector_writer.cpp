@@ -94,6 +94,11 @@ void write_layers(Package& out, const CoverageTables& t, const Plan& plan) {
     out.field("order", OFTInteger);
     out.field("new_length_m", OFTReal);
     out.field("seen_length_m", OFTReal);
+    out.field("kind", OFTString);
+    out.field("only_length_m", OFTReal);
+    out.field("articulation", OFTInteger);
+    out.field("bridge_end", OFTInteger);
+    out.field("needed_overlap", OFTReal);
     for (std::size_t i = 0; i < plan.stations.size(); ++i) {
         const Station& s = plan.stations[i];
         out.feature({point(i)}, [&](OGRFeatureH f) {
@@ -102,6 +107,12 @@ void write_layers(Package& out, const CoverageTables& t, const Plan& plan) {
             OGR_F_SetFieldInteger(f, 2, s.order);
             OGR_F_SetFieldDouble(f, 3, s.new_length_m);
             OGR_F_SetFieldDouble(f, 4, s.seen_length_m);
+            OGR_F_SetFieldString(f, 5,
+                                 std::string(name_of(t.candidates[idx(s.candidate)].kind)).c_str());
+            OGR_F_SetFieldDouble(f, 6, s.only_length_m);
+            OGR_F_SetFieldInteger(f, 7, s.articulation ? 1 : 0);
+            OGR_F_SetFieldInteger(f, 8, s.bridge_end ? 1 : 0);
+            OGR_F_SetFieldDouble(f, 9, s.needed_overlap);
         });
     }
     out.commit();

@@ -25,6 +25,14 @@ void write_plan(const std::filesystem::path& path, const PlanTable& t) {
                column<double>(s, [](const Station& k) { return k.new_length_m; }));
     file.write("stations/seen_length_m",
                column<double>(s, [](const Station& k) { return k.seen_length_m; }));
+    file.write("stations/only_length_m",
+               column<double>(s, [](const Station& k) { return k.only_length_m; }));
+    file.write("stations/articulation",
+               column<std::uint8_t>(s, [](const Station& k) { return k.articulation; }));
+    file.write("stations/bridge_end",
+               column<std::uint8_t>(s, [](const Station& k) { return k.bridge_end; }));
+    file.write("stations/needed_overlap",
+               column<double>(s, [](const Station& k) { return k.needed_overlap; }));
     const auto& l = t.plan.links;
     file.group("links");
     file.write("links/from", column<std::int32_t>(l, [](const Link& k) { return k.from; }));
@@ -60,8 +68,13 @@ PlanTable read_plan(const std::filesystem::path& path) {
     const auto order = file.read<std::int32_t>("stations/order");
     const auto fresh = file.read<double>("stations/new_length_m");
     const auto seen = file.read<double>("stations/seen_length_m");
+    const auto only = file.read<double>("stations/only_length_m");
+    const auto articulation = file.read<std::uint8_t>("stations/articulation");
+    const auto bridge_end = file.read<std::uint8_t>("stations/bridge_end");
+    const auto needed = file.read<double>("stations/needed_overlap");
     for (std::size_t i = 0; i < candidate.size(); ++i) {
-        t.plan.stations.push_back({candidate[i], network[i], order[i], fresh[i], seen[i]});
+        t.plan.stations.push_back({candidate[i], network[i], order[i], fresh[i], seen[i], only[i],
+                                   articulation[i] != 0, bridge_end[i] != 0, needed[i]});
     }
     const auto from = file.read<std::int32_t>("links/from");
     const auto to = file.read<std::int32_t>("links/to");

@@ -10,7 +10,7 @@
 namespace vfplan {
 namespace {
 
-constexpr std::int64_t format_version = 3;  // of the tables' layout (docs/file_format.md)
+constexpr std::int64_t format_version = 4;  // of the tables' layout (docs/file_format.md)
 constexpr std::size_t hash_bytes = 32;
 constexpr std::size_t digits = 5;  // of a shard's number, at least
 

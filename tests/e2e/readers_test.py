@@ -207,6 +207,49 @@ class Readers(unittest.TestCase):
                 self.assertAlmostEqual(at, float(row[axis]), delta=6e-5)
 
     @on_every_run
+    def test_roles_are_what_is_lost_without_the_station(self, run):
+        plan = run.plan
+        station = plan["stations/candidate"][:]
+        bits = (run.table[station] > 0).toarray()
+        only = bits & (bits.sum(axis=0) == 1)
+        np.testing.assert_allclose(plan["stations/only_length_m"][:], only @ run.length, atol=1e-6)
+        a, b = plan["links/from"][:], plan["links/to"][:]
+        overlap = plan["links/overlap"][:]
+
+        def parts(links, without=-1):
+            keep = links & (a != without) & (b != without)
+            graph = sparse.coo_matrix(
+                (np.ones(keep.sum()), (a[keep], b[keep])), shape=(len(station),) * 2
+            )
+            return sparse.csgraph.connected_components(graph, directed=False)[0]
+
+        every = np.ones(len(a), dtype=bool)
+        whole = parts(every)
+        for i in range(len(station)):
+            # Without the station it counts as a part of its own.
+            lost = parts(every, i) - whole - ((a == i) | (b == i)).any()
+            self.assertEqual(bool(plan["stations/articulation"][i]), lost > 0)
+        ends = np.zeros(len(station), dtype=bool)
+        for k in range(len(a)):
+            if parts(every & (np.arange(len(a)) != k)) > whole:
+                ends[[a[k], b[k]]] = True
+        np.testing.assert_array_equal(plan["stations/bridge_end"][:].astype(bool), ends)
+        for i in range(len(station)):
+            # As the strongest tree goes: with stronger links alone the station is parted from
+            # something that it is joined to by this one.
+            needed = plan["stations/needed_overlap"][i]
+            mine = (a == i) | (b == i)
+            self.assertEqual(needed > 0, mine.any())
+            if mine.any():
+                self.assertIn(needed, overlap[mine])
+                self.assertLess(parts(overlap >= needed), parts(overlap > needed))
+        for i, row in enumerate(run.rows("stations.csv")):
+            self.assertEqual(row["articulation"], str(plan["stations/articulation"][i]))
+            self.assertAlmostEqual(
+                float(row["only_length_m"]), plan["stations/only_length_m"][i], delta=6e-4
+            )
+
+    @on_every_run
     def test_links_are_overlaps(self, run):
         plan = run.plan
         bits = (run.table[plan["stations/candidate"][:]] > 0).toarray()

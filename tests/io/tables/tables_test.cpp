@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <tuple>
 
 #include "io/files.h"
 #include "io/h5_reader.h"
@@ -106,7 +107,9 @@ struct CoverageFolder {
 
 PlanTable sample_plan() {
     PlanTable t;
-    t.plan.stations = {{4, 0, 0, 12.5, 12.5}, {2, 0, 1, 3, 9.25}, {9, 1, 2, 1, 1}};
+    t.plan.stations = {{4, 0, 0, 12.5, 12.5, 3.5, true, false, 0.375},
+                       {2, 0, 1, 3, 9.25, 0.5, false, true, 0.375},
+                       {9, 1, 2, 1, 1, 1, false, false, 0}};
     t.plan.links = {{0, 1, 0.375, {0.5, 0.375, 0.25, 0.125, 0.0625}}};
     t.plan.pieces = {PieceStatus::covered, PieceStatus::unreached, PieceStatus::no_viewpoint};
     const NetworkProof proof{2, {{3, 4}}, 1, -1, {{LineKind::arcs, 0, {2, 5}}}, {{-1, {{0, 7}}}}};
@@ -322,11 +325,12 @@ TEST(Tables, PlanComesBack) {
     const PlanTable got = read_plan(file.path());
     ASSERT_EQ(got.plan.stations.size(), 3U);
     for (std::size_t i = 0; i < 3; ++i) {
-        EXPECT_EQ(got.plan.stations[i].candidate, t.plan.stations[i].candidate);
-        EXPECT_EQ(got.plan.stations[i].network, t.plan.stations[i].network);
-        EXPECT_EQ(got.plan.stations[i].order, t.plan.stations[i].order);
-        EXPECT_EQ(got.plan.stations[i].new_length_m, t.plan.stations[i].new_length_m);
-        EXPECT_EQ(got.plan.stations[i].seen_length_m, t.plan.stations[i].seen_length_m);
+        const auto all = [i](const Plan& p) {
+            const Station& s = p.stations[i];
+            return std::tuple(s.candidate, s.network, s.order, s.new_length_m, s.seen_length_m,
+                              s.only_length_m, s.articulation, s.bridge_end, s.needed_overlap);
+        };
+        EXPECT_EQ(all(got.plan), all(t.plan));
     }
     ASSERT_EQ(got.plan.links.size(), 1U);
     EXPECT_EQ(got.plan.links[0].from, 0);
