@@ -99,7 +99,7 @@ class Readers(unittest.TestCase):
         keys = set()
         for file in (run.field, run.coverage, run.plan):
             self.assertEqual(file.attrs["complete"], 1)
-            self.assertEqual(file.attrs["format_version"], 3)
+            self.assertEqual(file.attrs["format_version"], 4)
             self.assertTrue(text(file.attrs["title"]))
             keys.add(text(file.attrs["key"]))
         self.assertEqual(len(keys), 1)
@@ -218,10 +218,10 @@ class Readers(unittest.TestCase):
 
         def parts(links, without=-1):
             keep = links & (a != without) & (b != without)
-            graph = sparse.coo_matrix(
+            graph = scipy.sparse.coo_matrix(
                 (np.ones(keep.sum()), (a[keep], b[keep])), shape=(len(station),) * 2
             )
-            return sparse.csgraph.connected_components(graph, directed=False)[0]
+            return connected_components(graph, directed=False)[0]
 
         every = np.ones(len(a), dtype=bool)
         whole = parts(every)
