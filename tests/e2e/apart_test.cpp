@@ -154,8 +154,8 @@ TEST_P(Apart, NoMoreNetworksThanOverAllFreeCells) {
               fmt::format("all {} free cells", summary["grid"]["free_cells"].get<int>()));
     const Output text = vfplan_expect(0, {"run", job, "--out", scratch / "text"});
     EXPECT_NE(text.out.find("no chain of the"), std::string::npos) << text.out;
-    // Asked for more than the tables were made for, nothing is said of free cells.
-    vfplan_expect(0, {"plan", other, "--set", "overlap.threshold=0.5", "--quiet"});
+    // Asked for another ratio than the tables were made for, nothing is said of free cells.
+    vfplan_expect(0, {"plan", other, "--set", "overlap.ratio=min_len", "--quiet"});
     EXPECT_EQ(read_json(other / "summary.json")["joins_main_at_over"], "candidates");
 }
 
