@@ -66,7 +66,7 @@ struct PlanOptions {
     PlanMethod method = PlanMethod::refined;
     bool loops = true;
     OverlapRule overlap;
-    std::int64_t effort = 50;          // steps of search for each station of the greedy plan
+    std::int64_t effort = 35;          // steps of search for each station of the greedy plan
     std::int64_t proof_effort = 8000;  // as prove() has it
 };
 PlanOptions plan_options(const Config& config);
