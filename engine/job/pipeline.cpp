@@ -116,11 +116,11 @@ std::string summary_before_plan(const RunDir& dir, const Config& config, Progres
 void check_overlap(const Config& tables, const Config& plan, const std::filesystem::path& dir) {
     const auto rule = [](const Config& c) { return plan_options(c).overlap; };
     const double most = implied_threshold(rule(tables), rule(plan).ratio);
-    if (rule(plan).threshold <= most + 1e-12) return;
+    if (rule(plan).enough(most)) return;
     throw UsageError(fmt::format(
         "overlap {} {}: the candidates of {} were placed for {} {}, so that a plan could fall "
-        "apart "
-        "where there would be more of them; {}, or use run with this overlap and another --out",
+        "apart where there would be more of them; {}, or use run with this overlap and another "
+        "--out",
         name_of(rule(plan).ratio), rule(plan).threshold, dir.string(), name_of(rule(tables).ratio),
         rule(tables).threshold,
         most > 0 ? fmt::format("plan takes {} up to {:.3f} here", name_of(rule(plan).ratio),

@@ -18,6 +18,12 @@ using Json = nlohmann::ordered_json;
 
 double percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
 
+// What it was measured over how far networks are apart.
+std::string measured_over(const Planned& p) {
+    const std::int64_t cells = p.join_thresholds.free_cells;
+    return cells > 0 ? fmt::format("all {} free cells", cells) : std::string("candidates");
+}
+
 // Why there is more than one network.
 std::string apart_text(const Planned& p, const Config& config) {
     const Metrics& m = p.metrics;
@@ -34,8 +40,7 @@ std::string apart_text(const Planned& p, const Config& config) {
         return fmt::format("{} network{}", n, n == 1 ? "" : "s");
     };
     const std::int64_t cells = p.join_thresholds.free_cells;
-    const std::string over =
-        cells > 0 ? fmt::format("all {} free cells", cells) : std::string("candidates");
+    const std::string over = measured_over(p);
     std::string out = fmt::format(
         "apart        {} pieces are seen from {} only, not from the main one (network_list in "
         "summary.json)\n",
@@ -121,9 +126,7 @@ Json summary_of_plan(const Planned& p, const CoverageTables& t) {
     }
     j["network_list"] = networks;
     if (stations.size() > 1) {
-        const std::int64_t cells = p.join_thresholds.free_cells;
-        j["joins_main_at_over"] =
-            cells > 0 ? fmt::format("all {} free cells", cells) : std::string("candidates");
+        j["joins_main_at_over"] = measured_over(p);
     }
     j["networks_by_min_len"] = p.join_thresholds.networks_by_min_len;
     return j;

@@ -11,17 +11,6 @@
 namespace vfplan {
 namespace {
 
-// A frontier candidate as it was when it entered the queue; both numbers may be out of date.
-struct Entry {
-    double gain_m;
-    double overlap;
-    std::int32_t candidate;
-    bool operator<(const Entry& o) const {  // the greatest is taken first
-        return std::tuple(gain_m, overlap, -candidate) <
-               std::tuple(o.gain_m, o.overlap, -o.candidate);
-    }
-};
-
 class Greedy {
 public:
     Greedy(const PlanInput& input, const std::vector<std::int32_t>& members,
@@ -254,7 +243,7 @@ private:
     // Gains only shrink, so an entry whose gain is still true is the best one.
     std::int32_t best_of_frontier() {
         while (!frontier_.empty()) {
-            const Entry top = frontier_.top();
+            const FrontierEntry top = frontier_.top();
             frontier_.pop();
             if (chosen_[idx(top.candidate)] != 0 || top.overlap != overlap_[idx(top.candidate)]) {
                 continue;  // a newer entry stands for it
@@ -288,7 +277,7 @@ private:
     std::vector<Ranked> ranked_;        // by hops
     std::vector<std::int32_t> rim_;     // most_hops away; some have come nearer
     std::vector<std::int32_t> beyond_;  // farther than that, found for one path
-    std::priority_queue<Entry> frontier_;
+    std::priority_queue<FrontierEntry> frontier_;
     Chosen order_;
 };
 

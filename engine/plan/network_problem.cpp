@@ -101,4 +101,14 @@ Problem NetworkProblems::of(const std::vector<std::int32_t>& members,
     return out;
 }
 
+Choice columns_of(const std::vector<std::int32_t>& members, const Chosen& chosen) {
+    Choice out;
+    for (const std::int32_t c : chosen) {
+        out.push_back(static_cast<std::int32_t>(
+            std::lower_bound(members.begin(), members.end(), c) - members.begin()));
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
 }  // namespace vfplan

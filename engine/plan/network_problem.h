@@ -31,4 +31,7 @@ private:
     std::vector<std::int32_t> piece_;   // of rows
 };
 
+// The columns of chosen candidates. REQUIRES: they are among the members.
+Choice columns_of(const std::vector<std::int32_t>& members, const Chosen& chosen);
+
 }  // namespace vfplan

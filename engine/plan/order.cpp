@@ -1,27 +1,11 @@
 #include "engine/plan/order.h"
 
 #include <queue>
-#include <tuple>
 #include <unordered_set>
 
 #include "kernels/index.h"
 
 namespace vfplan {
-namespace {
-
-// How a station stood when it entered the queue; since then its gain may have shrunk.
-struct Entry {
-    double gain_m;
-    double overlap;
-    std::int32_t candidate;
-    bool operator<(const Entry& o) const {  // the greatest is taken first
-        return std::tuple(gain_m, overlap, -candidate) <
-               std::tuple(o.gain_m, o.overlap, -o.candidate);
-    }
-};
-
-}  // namespace
-
 Chosen in_order(const PlanInput& in, const Chosen& network,
                 const std::vector<std::uint8_t>& covered, Workspace& work) {
     if (network.empty()) return {};
@@ -35,15 +19,15 @@ Chosen in_order(const PlanInput& in, const Chosen& network,
         }
         return sum;
     };
-    std::priority_queue<Entry> queue;
-    Entry first{-1, 0, -1};
+    std::priority_queue<FrontierEntry> queue;
+    FrontierEntry first{-1, 0, -1};
     for (const std::int32_t c : network) {
-        if (const Entry e{gain_m(c), 0, c}; first.candidate < 0 || first < e) first = e;
+        if (const FrontierEntry e{gain_m(c), 0, c}; first.candidate < 0 || first < e) first = e;
     }
     queue.push(first);
     Chosen out;
     while (!queue.empty()) {
-        Entry top = queue.top();
+        FrontierEntry top = queue.top();
         queue.pop();
         if (waiting[idx(top.candidate)] == 0) continue;
         if (const double now = gain_m(top.candidate); now != top.gain_m) {

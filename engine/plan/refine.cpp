@@ -1,7 +1,5 @@
 #include "engine/plan/refine.h"
 
-#include <algorithm>
-
 #include "engine/graphs/cuts.h"
 #include "engine/plan/network_problem.h"
 #include "engine/search/reduce.h"
@@ -24,13 +22,7 @@ Choice searched(const Threads& threads, const Problem& whole, Reduce what, const
 // A network's better plan, where loops count or do not.
 Chosen refined(const Threads& threads, const PlanInput& in, const SearchOptions& options,
                Problem problem, bool loops, const Network& network) {
-    Choice choice;
-    for (const std::int32_t c : network.chosen) {
-        choice.push_back(static_cast<std::int32_t>(
-            std::lower_bound(network.members.begin(), network.members.end(), c) -
-            network.members.begin()));
-    }
-    std::sort(choice.begin(), choice.end());
+    const Choice choice = columns_of(network.members, network.chosen);
     if (loops) {
         problem.block = find_cuts(induced(in.graph, network.members)).block;
         problem.loose.assign(idx(problem.columns()), 1);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "engine/graphs/cycles.h"
@@ -23,6 +24,18 @@ struct PlanInput {
 
 // A network in the making: candidates in the order in which they were chosen.
 using Chosen = std::vector<std::int32_t>;
+
+// A candidate next to chosen ones, as it was when it entered a queue; both numbers may be out of
+// date.
+struct FrontierEntry {
+    double gain_m;
+    double overlap;
+    std::int32_t candidate;
+    bool operator<(const FrontierEntry& o) const {  // the greatest is taken first
+        return std::tuple(gain_m, overlap, -candidate) <
+               std::tuple(o.gain_m, o.overlap, -o.candidate);
+    }
+};
 
 // What the steps note by candidate. Made once and shared by all networks, so that a small network
 // costs what it holds, not what the graph holds: a step leaves the arrays as it found them.

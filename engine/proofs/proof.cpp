@@ -23,23 +23,6 @@ NetworkProof begin_proof(const Reduced& reduced, const Root& root) {
     return out;
 }
 
-// From numbers of the reduced problem to those of the whole.
-void renumber(const Reduced& reduced, NetworkProof& proof) {
-    const auto column = [&](std::int32_t& c) {
-        if (c >= 0) c = reduced.column[idx(c)];
-    };
-    const auto row = [&](std::int32_t& r) {
-        if (r >= 0) r = reduced.row[idx(r)];
-    };
-    row(proof.root_piece);
-    column(proof.root_station);
-    for (ProofLine& line : proof.lines) {
-        is_of_piece(line.kind) ? row(line.of) : column(line.of);
-        for (std::int32_t& c : line.within) column(c);
-    }
-    for (ProofCase& c : proof.cases) column(c.branch);
-}
-
 NetworkProof weighed(const Reduced& reduced, const Root& root, std::int64_t stations) {
     const Problem& p = reduced.problem;
     NetworkProof out = begin_proof(reduced, root);
@@ -79,11 +62,25 @@ NetworkProof by_windows(const Reduced& reduced, const Root& root, const NetworkP
 
 }  // namespace
 
+void renumber(const std::vector<std::int32_t>& column, const std::vector<std::int32_t>& row,
+              NetworkProof& proof) {
+    const auto turn = [](std::int32_t& number, const std::vector<std::int32_t>& into) {
+        if (number >= 0) number = into[idx(number)];
+    };
+    turn(proof.root_piece, row);
+    turn(proof.root_station, column);
+    for (ProofLine& line : proof.lines) {
+        turn(line.of, is_of_piece(line.kind) ? row : column);
+        for (std::int32_t& c : line.within) turn(c, column);
+    }
+    for (ProofCase& c : proof.cases) turn(c.branch, column);
+}
+
 NetworkProof weighed_proof(const Problem& problem, const Choice& plan) {
     const Reduced reduced = reduce(problem, Reduce::rows_and_columns);
     NetworkProof out =
         weighed(reduced, root_of(reduced.problem), static_cast<std::int64_t>(plan.size()));
-    renumber(reduced, out);
+    renumber(reduced.column, reduced.row, out);
     return out;
 }
 
@@ -127,7 +124,7 @@ Proven prove(const Problem& problem, const Choice& plan, std::int64_t effort_mil
         if (better.bound > best.bound) best = std::move(better);
     }
     Proven out{std::move(best), {}};
-    renumber(reduced, out.proof);
+    renumber(reduced.column, reduced.row, out.proof);
     for (const std::int32_t c : found) out.plan.push_back(reduced.column[idx(c)]);
     return out;
 }

@@ -8,6 +8,10 @@
 
 namespace vfplan {
 
+// Turns numbers of columns and rows into others, all but those of `gone`.
+void renumber(const std::vector<std::int32_t>& column, const std::vector<std::int32_t>& row,
+              NetworkProof& proof);
+
 // In all of these pieces and candidates are rows and columns of the problem. `plan` is one of its
 // plans. All follow from their arguments alone and are thread-safe.
 

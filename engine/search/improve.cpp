@@ -210,8 +210,7 @@ private:
     }
 
     void thin_out_around() {
-        std::vector<std::int32_t>& list = spare_;
-        list.assign(c_.spared().begin(), c_.spared().end());
+        std::vector<std::int32_t> list = c_.spared();
         for (const std::int32_t c : c_.changed_since(0)) {
             if (c_.is_chosen(c)) list.push_back(c);
             // Where cycles count, most of what covers nothing alone closes one, and to ask is dear.
@@ -270,7 +269,6 @@ private:
     std::uint32_t now_ = 0;
     std::vector<std::int32_t> ball_;
     std::vector<std::int32_t> members_;  // of a part
-    std::vector<std::int32_t> spare_;
 };
 
 }  // namespace

@@ -105,7 +105,6 @@ public:
             if (p_.loose.empty()) continue;
             q.loose.push_back(p_.loose[idx(c)]);
             q.block.push_back(p_.block[idx(c)]);
-            if (!p_.closable.empty()) q.closable.push_back(p_.closable[idx(c)]);
         }
         q.columns_of = transposed(q.rows_of, static_cast<std::int32_t>(out.row.size()));
         out.gone = std::move(gone);

@@ -30,7 +30,7 @@ enum class Reduce : std::uint8_t {
     rows,  // where cycles count: a column that adds nothing may still close one
     rows_and_columns,
 };
-// Fixed columns stay.
+// Fixed columns stay. REQUIRES: the problem is no window.
 Reduced reduce(const Problem& problem, Reduce what);
 
 // The same choice in a reduced problem: what went is replaced by what stands for it. `columns`: of

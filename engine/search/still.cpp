@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/graphs/cuts.h"
+
 namespace vfplan {
 namespace {
 
@@ -45,16 +47,11 @@ public:
     // and with what lies between two forks or touched nodes in one.
     Still forest() {
         find_blocks();
-        std::vector<std::int32_t> degree(up_.size(), 0);
-        std::vector<std::vector<std::int32_t>> near(up_.size());
-        std::vector<std::uint8_t> kept(up_.size(), 0);
+        std::vector<std::vector<std::int32_t>>& near = near_;
+        std::vector<std::int32_t> degree(near.size(), 0);
+        std::vector<std::uint8_t> kept(near.size(), 0);
         for (std::size_t s = 0; s < station_.size(); ++s) {
             if (touched_[idx(station_[s])] != 0) kept[idx(block_[s])] = 1;
-        }
-        for (std::size_t b = 0; b < up_.size(); ++b) {
-            if (up_[b] < 0) continue;
-            near[b].push_back(up_[b]);
-            near[idx(up_[b])].push_back(static_cast<std::int32_t>(b));
         }
         const std::vector<std::uint8_t> gone = bare_branches(near, kept);
         for (std::size_t b = 0; b < near.size(); ++b) {
@@ -62,12 +59,12 @@ public:
             degree[b] = static_cast<std::int32_t>(near[b].size());
         }
         // What has two neighbours and is not touched is drawn together with those like it.
-        std::vector<std::int32_t> drawn(up_.size(), -1);
+        std::vector<std::int32_t> drawn(near.size(), -1);
         std::int32_t count = 0;
         const auto between = [&](std::int32_t b) {
             return kept[idx(b)] == 0 && degree[idx(b)] == 2;
         };
-        for (std::size_t b = 0; b < up_.size(); ++b) {
+        for (std::size_t b = 0; b < near.size(); ++b) {
             if (gone[b] != 0 || drawn[b] >= 0) continue;
             drawn[b] = count;
             if (between(static_cast<std::int32_t>(b))) {
@@ -102,10 +99,9 @@ public:
             out.block[idx(of[s])] = p_.block[idx(c)];
             if (size_[idx(block_[s])] > 1) continue;  // on a cycle whatever comes
             const auto& links = plan_.links(c);
-            const bool closable =
-                closable_before(c) || std::any_of(links.begin(), links.end(), [&](std::int32_t n) {
-                    return inside_[idx(n)] == 0 && p_.block[idx(n)] == p_.block[idx(c)];
-                });
+            const bool closable = std::any_of(links.begin(), links.end(), [&](std::int32_t n) {
+                return inside_[idx(n)] == 0 && p_.block[idx(n)] == p_.block[idx(c)];
+            });
             const bool alone = kept[idx(block_[s])] != 0 || degree[idx(block_[s])] != 2;
             if (alone || closable) out.loose[idx(of[s])] += p_.loose[idx(c)];
             if (closable) out.closable[idx(of[s])] = 1;
@@ -114,10 +110,6 @@ public:
     }
 
 private:
-    bool closable_before(std::int32_t c) const {
-        return !p_.closable.empty() && p_.closable[idx(c)] != 0;
-    }
-
     template <class F>
     void each_link(std::int32_t s, F&& f) const {
         for (const std::int32_t n : plan_.links(station_[idx(s)])) {
@@ -125,58 +117,27 @@ private:
         }
     }
 
-    // Lowest-reachable numbering (Tarjan), without recursion: block_, size_, and the block above
-    // each in the tree of its part.
+    // block_, and size_ and the forest near_ of blocks.
     void find_blocks() {
-        const std::size_t n = station_.size();
-        std::vector<std::int32_t> order(n, -1);
-        std::vector<std::int32_t> low(n, 0);
-        std::vector<std::int32_t> parent(n, -1);
-        std::vector<std::uint8_t> passed(n, 0);
-        std::vector<std::size_t> next(n, 0);
-        std::vector<std::int32_t> stack;
-        std::vector<std::int32_t> met;
-        std::int32_t clock = 0;
-        block_.assign(n, -1);
-        for (std::size_t root = 0; root < n; ++root) {
-            if (order[root] >= 0) continue;
-            order[root] = low[root] = clock++;
-            stack.assign(1, static_cast<std::int32_t>(root));
-            met.assign(1, static_cast<std::int32_t>(root));
-            while (!stack.empty()) {
-                const std::int32_t v = stack.back();
-                const std::vector<std::int32_t>& links = plan_.links(station_[idx(v)]);
-                if (next[idx(v)] < links.size()) {
-                    const std::int32_t c = links[next[idx(v)]++];
-                    if (inside_[idx(c)] != 0) continue;
-                    const std::int32_t w = number_[idx(c)];
-                    if (order[idx(w)] < 0) {
-                        parent[idx(w)] = v;
-                        order[idx(w)] = low[idx(w)] = clock++;
-                        stack.push_back(w);
-                        met.push_back(w);
-                    } else if (w == parent[idx(v)] && passed[idx(v)] == 0) {
-                        passed[idx(v)] = 1;
-                    } else {
-                        low[idx(v)] = std::min(low[idx(v)], order[idx(w)]);
-                    }
-                    continue;
-                }
-                stack.pop_back();
-                const std::int32_t p = parent[idx(v)];
-                if (p >= 0) low[idx(p)] = std::min(low[idx(p)], low[idx(v)]);
+        Graph graph;
+        for (std::size_t s = 0; s < station_.size(); ++s) {
+            each_link(static_cast<std::int32_t>(s), [&](std::int32_t n) {
+                graph.to.push_back(n);
+                graph.overlap.push_back(0);  // does not matter
+            });
+            graph.begin.push_back(static_cast<std::int64_t>(graph.to.size()));
+        }
+        block_ = find_cuts(graph).block;
+        for (std::size_t s = 0; s < station_.size(); ++s) {
+            const std::size_t b = idx(block_[s]);
+            if (b >= size_.size()) {
+                size_.resize(b + 1, 0);
+                near_.resize(b + 1);
             }
-            for (const std::int32_t v : met) {  // parents come first
-                const std::int32_t p = parent[idx(v)];
-                if (p >= 0 && low[idx(v)] <= order[idx(p)]) {
-                    block_[idx(v)] = block_[idx(p)];
-                } else {
-                    block_[idx(v)] = static_cast<std::int32_t>(up_.size());
-                    up_.push_back(p >= 0 ? block_[idx(p)] : -1);
-                    size_.push_back(0);
-                }
-                ++size_[idx(block_[idx(v)])];
-            }
+            ++size_[b];
+            each_link(static_cast<std::int32_t>(s), [&](std::int32_t n) {
+                if (block_[idx(n)] != block_[s]) near_[b].push_back(block_[idx(n)]);
+            });
         }
     }
 
@@ -216,11 +177,11 @@ private:
     const Choosing& plan_;
     const std::vector<std::uint8_t>& inside_;
     const std::vector<std::uint8_t>& touched_;
-    std::vector<std::int32_t> number_;   // by column, among the stations outside
-    std::vector<std::int32_t> station_;  // outside
-    std::vector<std::int32_t> block_;    // by station
-    std::vector<std::int32_t> up_;       // by block
-    std::vector<std::int32_t> size_;     // by block
+    std::vector<std::int32_t> number_;             // by column, among the stations outside
+    std::vector<std::int32_t> station_;            // outside
+    std::vector<std::int32_t> block_;              // by station
+    std::vector<std::int32_t> size_;               // by block
+    std::vector<std::vector<std::int32_t>> near_;  // by block
 };
 
 }  // namespace

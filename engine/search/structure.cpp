@@ -16,7 +16,7 @@ Structure::Structure(const Problem& problem, const Choosing& choosing)
       passed_(idx(p_.columns()), 0),
       on_cycle_(idx(p_.columns()), 0) {}
 
-std::int32_t Structure::find_parts() {
+void Structure::find_parts() {
     for (const std::int32_t c : c_.chosen()) part_[idx(c)] = -1;
     above_.clear();
     weight_.clear();
@@ -37,7 +37,6 @@ std::int32_t Structure::find_parts() {
         }
     }
     parts_ = static_cast<std::int32_t>(above_.size());
-    return parts_;
 }
 
 std::int32_t Structure::top(std::int32_t part) {

@@ -13,9 +13,9 @@ class Structure {
 public:
     Structure(const Problem& problem, const Choosing& choosing);
 
-    // Numbers the parts in which the chosen hang together; returns how many there are. joins()
+    // Numbers the parts in which the chosen hang together. joins()
     // keeps that up to date.
-    std::int32_t find_parts();
+    void find_parts();
     std::int32_t part(std::int32_t column) { return top(part_[idx(column)]); }
     // Columns near to a part: what a search outward from it would cost.
     std::int64_t weight(std::int32_t part) const { return weight_[idx(part)]; }
