@@ -239,7 +239,7 @@ void stage_write_tables(benchmark::State& state, const std::string& site) {
         write_field_index(dir / "field.h5", {layout, {0, 0}, "", m.key, "{}"}, {tile});
         write_coverage_block(rows, m.key, block);
         write_coverage_index(dir / "coverage.h5", m.coverage->walls, m.coverage->pieces, {rows},
-                             {{0, 0}, "", m.key, "{}"});
+                             {{0, 0}, "", m.key, "{}", {}});
         return m.vf_rad.size() + block.table.seen.size();
     };
     timed(state, write);
