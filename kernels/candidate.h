@@ -24,12 +24,14 @@ enum class CandidateKind : std::uint8_t {
     connector,  // inserted between components of the overlap graph
     required,   // asked for by the user
     existing,   // a scan that already exists
+    pool,       // off the ridges (docs/method.md 6)
 };
 
 template <>
 struct Names<CandidateKind> {
-    static constexpr std::array<std::string_view, 9> all = {
-        "joint", "middle", "ring", "end", "split", "rescue", "connector", "required", "existing"};
+    static constexpr std::array<std::string_view, 10> all = {
+        "joint",  "middle",    "ring",     "end",      "split",
+        "rescue", "connector", "required", "existing", "pool"};
 };
 
 struct Candidate {
@@ -39,9 +41,16 @@ struct Candidate {
     float vf_rad = 0;  // VF there
 };
 
-// Where candidates come from that a plan is made of. A bound holds over these alone, so it is told
-// beside each.
-inline constexpr std::string_view candidate_pool = "axis";
+// The candidates that a plan is made of. A bound holds over these alone, so they are told beside
+// each.
+enum class CandidatePool : std::uint8_t {
+    axis,  // those of the skeleton, and what rescues and joins
+    pool,  // these and more, off the ridges
+};
+template <>
+struct Names<CandidatePool> {
+    static constexpr std::array<std::string_view, 2> all = {"axis", "pool"};
+};
 
 // How a piece fares, before and after planning.
 enum class PieceStatus : std::uint8_t {

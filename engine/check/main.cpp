@@ -20,9 +20,8 @@ int main(int argc, char** argv) {
         const std::filesystem::path dir = argv[1];
         const std::string name = (dir / "certificate.txt").string();
         const Certificate certificate = certificate_of(read_text(name), name);
-        const CoverageTables tables = read_coverage(dir / "coverage.h5");
-        const CoverageEntries entries(dir / "coverage.h5");
         const PlanTable plan = read_plan(dir / "plan.h5");
+        const auto [tables, entries] = read_candidates(dir, plan.pool);
         if (plan.key != tables.key) throw IoError("the plan was made from other tables");
         const RunCheck found = check_plan(tables, entries, plan, certificate);
         for (const std::string& line : found.wrong) fmt::print("NO   {}\n", line);

@@ -58,8 +58,13 @@ TableOptions table_options(const Config& c) {
     return {scene_options(c), c.field.tile_cells, c.field.threshold_rad, overlap_rule(c), {}, {}};
 }
 
+PoolOptions pool_options(const Config& c) {
+    return {c.plan.pool_tried, c.plan.pool_taken, scene_options(c), c.site.snap_m};
+}
+
 PlanOptions plan_options(const Config& c) {
-    return {c.plan.method, c.plan.loops, overlap_rule(c), c.plan.effort, c.plan.proof_effort};
+    return {c.plan.method,   c.plan.candidates, c.plan.loops,
+            overlap_rule(c), c.plan.effort,     c.plan.proof_effort};
 }
 
 }  // namespace vfplan

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/site/site_options.h"
+#include "kernels/candidate.h"
 #include "kernels/names.h"
 #include "kernels/overlap.h"
 #include "kernels/scanner.h"
@@ -56,6 +57,15 @@ struct TableOptions {
 };
 TableOptions table_options(const Config& config);
 
+// More candidates than the tables have.
+struct PoolOptions {
+    double tried = 14;    // points for each candidate of the tables
+    double taken = 0;     // likewise, of a coarser grid
+    SceneOptions scenes;  // as the tables have them
+    double snap_m = 0.001;
+};
+PoolOptions pool_options(const Config& config);
+
 enum class PlanMethod : std::uint8_t { greedy, refined, certified };
 template <>
 struct Names<PlanMethod> {
@@ -64,6 +74,7 @@ struct Names<PlanMethod> {
 
 struct PlanOptions {
     PlanMethod method = PlanMethod::refined;
+    CandidatePool candidates = CandidatePool::axis;
     bool loops = true;
     OverlapRule overlap;
     std::int64_t effort = 35;          // steps of search for each station of the greedy plan

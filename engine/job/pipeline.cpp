@@ -14,6 +14,7 @@
 #include "engine/job/summary.h"
 #include "engine/job/tables.h"
 #include "engine/plan/planning.h"
+#include "engine/pool/pool.h"
 #include "engine/tables/site.h"
 #include "io/exports/outputs.h"
 #include "io/files.h"
@@ -51,6 +52,13 @@ void tables_of(const RunDir& dir, const Config& config, const JobKeys& keys, boo
     make_tables(table_options(config), dir.path(), keys.tables, threads, ranks, progress);
 }
 
+// pool.h5, as far as it is missing and asked for; on all ranks.
+void add_pool(const RunDir& dir, const Config& config, const Threads& threads, const Ranks& ranks,
+              Progress& progress) {
+    if (config.plan.candidates != CandidatePool::pool) return;
+    make_pool(dir.path(), pool_options(config), threads, ranks, progress);
+}
+
 // The files that are asked for; what is not does not stay from a plan before.
 void write_outputs(const RunDir& dir, const std::vector<std::string>& formats,
                    const Results& results) {
@@ -69,14 +77,16 @@ std::string plan_of(const RunDir& dir, const Config& config, const Threads& thre
                     Progress& progress) {
     progress.stage("read");
     const FieldFile field(dir.file("field.h5"));
-    const CoverageTables tables = read_coverage(dir.file("coverage.h5"));
-    const CoverageEntries entries(dir.file("coverage.h5"));
     const PlanOptions options = plan_options(config);
+    const Candidates candidates = read_candidates(dir.path(), options.candidates);
+    const CoverageTables& tables = candidates.tables;
+    const CoverageEntries& entries = candidates.entries;
     // The rows are gone before files are written.
     const Planned planned = plan_stations(plan_tables_of(tables, entries, options.overlap.ratio),
                                           options, config.scanner.range_max_m, threads, progress);
     progress.stage("files");
-    write_plan(dir.file("plan.h5"), {planned.plan, tables.key, options.overlap});
+    write_plan(dir.file("plan.h5"),
+               {planned.plan, tables.key, options.overlap, options.candidates});
     write_outputs(dir, config.output.formats,
                   {field, tables, planned.plan, config.site.input.filename().string(),
                    plan_line(planned), static_cast<int>(config.output.map_px)});
@@ -145,7 +155,10 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
     }
     run_in_folder(
         dir, config, keys, options.fresh, ranks,
-        [&] { tables_of(dir, config, keys, options.plan, threads, ranks, progress); },
+        [&] {
+            tables_of(dir, config, keys, options.plan, threads, ranks, progress);
+            add_pool(dir, config, threads, ranks, progress);
+        },
         [&] {
             ranks.lead([&] {
                 dir.remove_work();
@@ -179,6 +192,8 @@ std::string plan_again(const std::filesystem::path& path, const std::vector<std:
     const Config config = dir.config(overrides);
     check_overlap(dir.config(), config, path);
     const FolderLock lock(dir, true);
+    add_pool(dir, config, threads, Ranks{Ranks::Alone{}}, progress);
+    dir.remove_work();
     return plan_of(dir, config, threads, progress);
 }
 

@@ -96,7 +96,8 @@ void RunDir::remove_plan() const {
 void RunDir::remove_run() const {
     remove_plan();
     std::error_code ignored;
-    for (const char* name : {"field.h5", "coverage.h5", "shards", "work", "provenance.json"}) {
+    for (const char* name :
+         {"field.h5", "coverage.h5", "pool.h5", "shards", "work", "provenance.json"}) {
         std::filesystem::remove_all(file(name), ignored);
     }
 }

@@ -98,7 +98,7 @@ Json summary_of_plan(const Planned& p, const CoverageTables& t) {
     // compares across.
     j["lower_bound"] = m.lower_bound;
     j["gap"] = m.gap;
-    j["candidate_pool"] = {{"name", candidate_pool}, {"candidates", t.candidates.size()}};
+    j["candidate_pool"] = {{"name", name_of(t.pool)}, {"candidates", t.candidates.size()}};
     const auto count = [&](const std::string& kind, std::int64_t stations) {
         j["stations_" + kind] = stations;
         j["bound_" + kind] = m.lower_bound;
@@ -155,7 +155,7 @@ std::string plan_text(const Planned& p, const CoverageTables& t, const Config& c
         "bound        no plan over these {} candidates ({}) has fewer than {}: gap {:.1f} %\n"
         "covered      {} of {} coverable pieces, {:.2f} % of their {:.0f} m, by the main network\n",
         p.plan.stations.size(), m.networks, m.networks == 1 ? "" : "s", p.plan.links.size(),
-        t.candidates.size(), candidate_pool, m.lower_bound, 100 * m.gap, m.pieces_covered,
+        t.candidates.size(), name_of(t.pool), m.lower_bound, 100 * m.gap, m.pieces_covered,
         m.pieces_coverable, percent(m.length_covered_m, m.length_coverable_m),
         m.length_coverable_m);
     if (m.networks > 1) out += apart_text(p, config);

@@ -25,7 +25,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* field_name = "field.h5";
-constexpr const char* coverage_name = "coverage.h5";
 constexpr const char* index_phase = "tables";
 
 // What the field cost in operations. For the rays "steps" are rays.
@@ -107,7 +106,8 @@ void make_coverage_table(const TableJob& job, const SiteStore& site, const Field
     const CandidateList connected =
         make_connectors(job, rescued.candidates, components, paths, of_user, rule);
     const Joins joins = make_joins(job, site, field, connected, of_user, rule);
-    const std::vector<std::filesystem::path> blocks = make_coverage(job, field, joins.candidates);
+    const std::vector<std::filesystem::path> blocks =
+        make_coverage(job, field, "coverage", joins.candidates);
 
     make_coverage_index(job, site, blocks,
                         {{"joints", ridges.joints()},

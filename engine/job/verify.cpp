@@ -325,13 +325,14 @@ VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Pro
     const Config config = dir.config();
     progress.stage("read");
     const FieldFile field(dir.file("field.h5"));
-    const CoverageTables t = read_coverage(dir.file("coverage.h5"));
-    const CoverageEntries entries(dir.file("coverage.h5"));
     if (!std::filesystem::exists(dir.file("plan.h5"))) {
         throw IoError(fmt::format("{}: tables, but no plan.h5 yet; make it with vfplan plan {}",
                                   path.string(), path.string()));
     }
     const PlanTable table = read_plan(dir.file("plan.h5"));
+    const Candidates candidates = read_candidates(dir.path(), table.pool);
+    const CoverageTables& t = candidates.tables;
+    const CoverageEntries& entries = candidates.entries;
     Checks checks;
     checks.add(table.key == t.key && field.info().key == t.key,
                "field, coverage and plan belong to one job");

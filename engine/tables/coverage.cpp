@@ -52,10 +52,11 @@ CoverageBlock block_of(const TableJob& job, const FieldTiles& field, std::vector
 }  // namespace
 
 std::vector<std::filesystem::path> make_coverage(const TableJob& job, const FieldTiles& field,
+                                                 const std::string& phase,
                                                  const CandidateList& candidates) {
     const std::int64_t n = candidates.size();
     const std::int64_t blocks = (n + rows_in_block - 1) / rows_in_block;
-    const ShardNames names = job.kept("coverage");
+    const ShardNames names = job.kept(phase);
     make_shards(job, names, blocks, [&](std::int64_t b, const std::filesystem::path& path) {
         const std::int64_t from = b * rows_in_block;
         const std::int64_t to = std::min(n, from + rows_in_block);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "engine/tables/shards.h"
@@ -10,9 +11,10 @@
 
 namespace vfplan {
 
-// Phase "coverage": shards/coverage-NUMBER.h5 with the rows of some thousand candidates each, the
-// same blocks whatever the tiles. Gives their files.
+// A phase, "coverage" or "pool": shards/PHASE-NUMBER.h5 with the rows of some thousand candidates
+// each, the same blocks whatever the tiles. Gives their files.
 std::vector<std::filesystem::path> make_coverage(const TableJob& job, const FieldTiles& field,
+                                                 const std::string& phase,
                                                  const CandidateList& candidates);
 
 }  // namespace vfplan

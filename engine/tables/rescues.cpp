@@ -190,15 +190,16 @@ RescueTile rescues_of_tile(const TableJob& job, const SiteStore& site, const Fie
             });
     }
     for (const std::int64_t c : out.piece_cell) {
-        if (c >= 0) out.cell.push_back(c);
+        if (c >= 0) out.cells.cell.push_back(c);
     }
-    std::sort(out.cell.begin(), out.cell.end());
-    out.cell.erase(std::unique(out.cell.begin(), out.cell.end()), out.cell.end());
-    const std::vector<Vec2d> eyes = centres(layout.grid, out.cell);
-    out.covers.resize(out.cell.size());
+    std::vector<std::int64_t>& cell = out.cells.cell;
+    std::sort(cell.begin(), cell.end());
+    cell.erase(std::unique(cell.begin(), cell.end()), cell.end());
+    const std::vector<Vec2d> eyes = centres(layout.grid, cell);
+    out.cells.covers.resize(cell.size());
     job.scenes.each(job.threads, eyes, [&](std::size_t i, const Scene& scene) {
         for (const Seen& s : scene.look(eyes[i]).row) {
-            if (!covered[idx(s.piece)]) out.covers[i].push_back(s.piece);
+            if (!covered[idx(s.piece)]) out.cells.covers[i].push_back(s.piece);
         }
     });
     return out;
@@ -232,8 +233,8 @@ std::vector<Candidate> fewest_cells(const Grid& grid, const ShardNames& names, s
         for (std::size_t i = 0; i < tile.piece.size(); ++i) {
             open.emplace_back(tile.piece[i], tile.piece_cell[i]);
         }
-        for (std::size_t i = 0; i < tile.cell.size(); ++i) {
-            covers[tile.cell[i]] = std::move(tile.covers[i]);
+        for (std::size_t i = 0; i < tile.cells.cell.size(); ++i) {
+            covers[tile.cells.cell[i]] = std::move(tile.cells.covers[i]);
         }
     }
     std::sort(open.begin(), open.end());

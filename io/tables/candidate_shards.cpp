@@ -47,35 +47,89 @@ std::int64_t FoundTiles::short_of_overlap() const {
     return sum;
 }
 
+namespace {
+
+void add_rows(h5::Writer& file, const CellRows& rows, const std::string& group = "") {
+    std::vector<std::int64_t> begin = {0};
+    std::vector<std::int32_t> piece;
+    for (const std::vector<std::int32_t>& row : rows.covers) {
+        piece.insert(piece.end(), row.begin(), row.end());
+        begin.push_back(static_cast<std::int64_t>(piece.size()));
+    }
+    file.write(group + "cell", rows.cell);
+    file.write(group + "covers_begin", begin);
+    file.write(group + "covers_piece", piece);
+}
+
+CellRows rows_in(const h5::Reader& file, const std::string& group = "") {
+    CellRows out;
+    out.cell = file.read<std::int64_t>(group + "cell");
+    const auto begin = file.read<std::int64_t>(group + "covers_begin");
+    const auto piece = file.read<std::int32_t>(group + "covers_piece");
+    for (std::size_t i = 0; i < out.cell.size(); ++i) {
+        out.covers.emplace_back(piece.begin() + begin[i], piece.begin() + begin[i + 1]);
+    }
+    return out;
+}
+
+}  // namespace
+
+void write_pool_squares(const std::filesystem::path& path, const std::string& key,
+                        const std::vector<PoolSquare>& squares) {
+    h5::Writer file = begin_shard(path, key);
+    for (CellRows PoolSquare::*const part : {&PoolSquare::taken, &PoolSquare::again}) {
+        CellRows all;
+        std::vector<std::int64_t> count;
+        for (const PoolSquare& square : squares) {
+            const CellRows& some = square.*part;
+            all.cell.insert(all.cell.end(), some.cell.begin(), some.cell.end());
+            all.covers.insert(all.covers.end(), some.covers.begin(), some.covers.end());
+            count.push_back(static_cast<std::int64_t>(some.cell.size()));
+        }
+        const std::string group = part == &PoolSquare::taken ? "taken" : "again";
+        file.group(group);
+        file.write(group + "/count", count);
+        add_rows(file, all, group + "/");
+    }
+    finish_shard(file);
+}
+
+std::vector<PoolSquare> read_pool_squares(const std::filesystem::path& path) {
+    const h5::Reader file(path);
+    std::vector<PoolSquare> out;
+    for (CellRows PoolSquare::*const part : {&PoolSquare::taken, &PoolSquare::again}) {
+        const std::string group = part == &PoolSquare::taken ? "taken/" : "again/";
+        const auto count = file.read<std::int64_t>(group + "count");
+        CellRows all = rows_in(file, group);
+        out.resize(count.size());
+        std::size_t i = 0;
+        for (std::size_t square = 0; square < count.size(); ++square) {
+            CellRows& some = out[square].*part;
+            for (std::int64_t k = 0; k < count[square]; ++k, ++i) {
+                some.cell.push_back(all.cell[i]);
+                some.covers.push_back(std::move(all.covers[i]));
+            }
+        }
+    }
+    return out;
+}
+
+CellRows read_taken(const std::filesystem::path& path) {
+    return rows_in(h5::Reader(path), "taken/");
+}
+
 void write_rescue_tile(const std::filesystem::path& path, const std::string& key,
                        const RescueTile& tile) {
-    std::vector<std::int64_t> covers_begin = {0};
-    std::vector<std::int32_t> covers_piece;
-    for (const std::vector<std::int32_t>& row : tile.covers) {
-        covers_piece.insert(covers_piece.end(), row.begin(), row.end());
-        covers_begin.push_back(static_cast<std::int64_t>(covers_piece.size()));
-    }
     h5::Writer file = begin_shard(path, key);
     file.write("piece", tile.piece);
     file.write("piece_cell", tile.piece_cell);
-    file.write("cell", tile.cell);
-    file.write("covers_begin", covers_begin);
-    file.write("covers_piece", covers_piece);
+    add_rows(file, tile.cells);
     finish_shard(file);
 }
 
 RescueTile read_rescue_tile(const std::filesystem::path& path) {
     const h5::Reader file(path);
-    RescueTile tile;
-    tile.piece = file.read<std::int32_t>("piece");
-    tile.piece_cell = file.read<std::int64_t>("piece_cell");
-    tile.cell = file.read<std::int64_t>("cell");
-    const auto begin = file.read<std::int64_t>("covers_begin");
-    const auto piece = file.read<std::int32_t>("covers_piece");
-    for (std::size_t i = 0; i < tile.cell.size(); ++i) {
-        tile.covers.emplace_back(piece.begin() + begin[i], piece.begin() + begin[i + 1]);
-    }
-    return tile;
+    return {file.read<std::int32_t>("piece"), file.read<std::int64_t>("piece_cell"), rows_in(file)};
 }
 
 }  // namespace vfplan

@@ -46,13 +46,28 @@ private:
     std::int64_t tiles_;
 };
 
+// Cells and which pieces each of them covers, ascending.
+struct CellRows {
+    std::vector<std::int64_t> cell;
+    std::vector<std::vector<std::int32_t>> covers;
+};
+// work/.../points-ROUND-NUMBER.h5: points off the ridges, square by square.
+struct PoolSquare {
+    CellRows taken;  // these become candidates
+    CellRows again;  // these may be looked at again in the next round
+};
+void write_pool_squares(const std::filesystem::path& path, const std::string& key,
+                        const std::vector<PoolSquare>& squares);
+std::vector<PoolSquare> read_pool_squares(const std::filesystem::path& path);
+// Of all squares together.
+CellRows read_taken(const std::filesystem::path& path);
+
 // work/.../rescues-TILE.h5: pieces that nothing else covers, each with the best cell that sees
 // enough of it (-1: none does), and which such pieces each of these cells covers.
 struct RescueTile {
     std::vector<std::int32_t> piece;
-    std::vector<std::int64_t> piece_cell;           // of each
-    std::vector<std::int64_t> cell;                 // each once, ascending
-    std::vector<std::vector<std::int32_t>> covers;  // of each cell, ascending
+    std::vector<std::int64_t> piece_cell;  // of each
+    CellRows cells;                        // each once, ascending, with such pieces
 };
 void write_rescue_tile(const std::filesystem::path& path, const std::string& key,
                        const RescueTile& tile);

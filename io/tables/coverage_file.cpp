@@ -1,10 +1,13 @@
 #include "io/tables/coverage_file.h"
 
+#include <fmt/format.h>
+
 #include "io/columns.h"
 #include "io/tables/crs.h"
 #include "io/tables/shard.h"
 #include "io/tables/shard_index.h"
 #include "io/tables/wall_columns.h"
+#include "kernels/error.h"
 #include "kernels/index.h"
 
 namespace vfplan {
@@ -24,7 +27,7 @@ void write_candidates(h5::Writer& file, const std::vector<Candidate>& c) {
                 column<CandidateKind>(c, [](const Candidate& k) { return k.kind; }));
 }
 
-std::vector<Candidate> read_candidates(const h5::Reader& file) {
+std::vector<Candidate> read_points(const h5::Reader& file) {
     const auto x = file.read<double>("candidates/x");
     const auto y = file.read<double>("candidates/y");
     const auto cell = file.read<std::int64_t>("candidates/cell");
@@ -85,6 +88,60 @@ void write_pieces(h5::Writer& file, const std::vector<Wall>& walls, const Pieces
     file.write("walls/pieces_right", on_side[right]);
 }
 
+// What blocks of rows hold together.
+struct RowsOfBlocks {
+    std::vector<Candidate> candidates;
+    std::vector<std::int64_t> begin = {0};
+    std::vector<std::uint64_t> entries;  // of each block
+};
+
+// Calls covered(piece) for each entry.
+template <class Covered>
+RowsOfBlocks rows_of(const std::vector<std::filesystem::path>& blocks, const Covered& covered) {
+    RowsOfBlocks out;
+    for (const std::filesystem::path& block : blocks) {
+        const h5::Reader file(block);
+        const std::vector<Candidate> some = read_points(file);
+        out.candidates.insert(out.candidates.end(), some.begin(), some.end());
+        const auto indptr = file.read<std::int64_t>("coverage/indptr");
+        const std::int64_t before = out.begin.back();
+        for (std::size_t i = 1; i < indptr.size(); ++i) out.begin.push_back(before + indptr[i]);
+        out.entries.push_back(static_cast<std::uint64_t>(indptr.back()));
+        for (const std::int32_t p : file.read<std::int32_t>("coverage/indices")) covered(p);
+    }
+    return out;
+}
+
+void write_rows(h5::Writer& file, const RowsOfBlocks& rows,
+                const std::vector<std::filesystem::path>& blocks, std::int64_t pieces) {
+    write_candidates(file, rows.candidates);
+    file.group("coverage");
+    file.attribute("coverage", "encoding-type", "csr_matrix");
+    file.attribute("coverage", "encoding-version", "0.1.0");
+    file.attribute(
+        "coverage", "shape",
+        std::vector<std::int64_t>{static_cast<std::int64_t>(rows.candidates.size()), pieces});
+    file.write("coverage/indptr", rows.begin);
+    const auto whole = static_cast<std::uint64_t>(rows.begin.back());
+    const auto parts = [&](const char* name) {
+        std::vector<h5::Source> sources;
+        std::uint64_t from = 0;
+        for (std::size_t b = 0; b < blocks.size(); ++b) {
+            if (rows.entries[b] > 0) {
+                sources.push_back({name_in_index(blocks[b]),
+                                   std::string("coverage/") + name,
+                                   {from},
+                                   {rows.entries[b]}});
+            }
+            from += rows.entries[b];
+        }
+        return sources;
+    };
+    file.write_virtual<std::int32_t>("coverage/indices", {whole}, parts("indices"), -1);
+    file.write_virtual<float>("coverage/data", {whole}, parts("data"), 0);
+    file.write_virtual<float>("coverage/angle_rad", {whole}, parts("angle_rad"), 0);
+}
+
 }  // namespace
 
 void write_coverage_block(const std::filesystem::path& path, const std::string& key,
@@ -105,22 +162,9 @@ void write_coverage_block(const std::filesystem::path& path, const std::string& 
 void write_coverage_index(const std::filesystem::path& path, const std::vector<Wall>& walls,
                           const Pieces& pieces, const std::vector<std::filesystem::path>& blocks,
                           const CoverageInfo& info) {
-    std::vector<Candidate> candidates;
-    std::vector<std::int64_t> begin = {0};
     std::vector<PieceStatus> status(idx(pieces.size()), PieceStatus::no_viewpoint);
-    std::vector<std::uint64_t> entries;  // of each block
-    for (const std::filesystem::path& block : blocks) {
-        const h5::Reader file(block);
-        const std::vector<Candidate> some = read_candidates(file);
-        candidates.insert(candidates.end(), some.begin(), some.end());
-        const auto indptr = file.read<std::int64_t>("coverage/indptr");
-        const std::int64_t before = begin.back();
-        for (std::size_t i = 1; i < indptr.size(); ++i) begin.push_back(before + indptr[i]);
-        entries.push_back(static_cast<std::uint64_t>(indptr.back()));
-        for (const std::int32_t p : file.read<std::int32_t>("coverage/indices")) {
-            status[idx(p)] = PieceStatus::covered;
-        }
-    }
+    const RowsOfBlocks rows =
+        rows_of(blocks, [&](std::int32_t p) { status[idx(p)] = PieceStatus::covered; });
     h5::Writer file = begin_table(path, "coverage table: candidates x pieces", info.key);
     file.attribute("/", "summary", info.summary);
     write_crs(file, info.crs_wkt, info.origin);
@@ -128,33 +172,19 @@ void write_coverage_index(const std::filesystem::path& path, const std::vector<W
     file.attribute("walls", "units", frame);
     write_walls(file, "walls", walls);
     write_pieces(file, walls, pieces, status);
-    write_candidates(file, candidates);
-    file.group("coverage");
-    file.attribute("coverage", "encoding-type", "csr_matrix");
-    file.attribute("coverage", "encoding-version", "0.1.0");
-    file.attribute(
-        "coverage", "shape",
-        std::vector<std::int64_t>{static_cast<std::int64_t>(candidates.size()), pieces.size()});
-    file.write("coverage/indptr", begin);
-    const auto whole = static_cast<std::uint64_t>(begin.back());
-    const auto parts = [&](const char* name) {
-        std::vector<h5::Source> sources;
-        std::uint64_t from = 0;
-        for (std::size_t b = 0; b < blocks.size(); ++b) {
-            if (entries[b] > 0) {
-                sources.push_back({name_in_index(blocks[b]),
-                                   std::string("coverage/") + name,
-                                   {from},
-                                   {entries[b]}});
-            }
-            from += entries[b];
-        }
-        return sources;
-    };
-    file.write_virtual<std::int32_t>("coverage/indices", {whole}, parts("indices"), -1);
-    file.write_virtual<float>("coverage/data", {whole}, parts("data"), 0);
-    file.write_virtual<float>("coverage/angle_rad", {whole}, parts("angle_rad"), 0);
+    write_rows(file, rows, blocks, pieces.size());
     write_apart(file, info.apart);
+    write_shard_list(file, blocks);
+    finish_table(file);
+}
+
+void write_pool_index(const std::filesystem::path& path,
+                      const std::vector<std::filesystem::path>& blocks, const std::string& key,
+                      std::int64_t pieces) {
+    const RowsOfBlocks rows = rows_of(blocks, [](std::int32_t) {});
+    h5::Writer file =
+        begin_table(path, "more candidates, off the ridges: candidates x pieces", key);
+    write_rows(file, rows, blocks, pieces);
     write_shard_list(file, blocks);
     finish_table(file);
 }
@@ -175,10 +205,42 @@ CoverageTables read_coverage(const std::filesystem::path& path) {
     }
     t.status = column<PieceStatus>(file.read<std::uint8_t>("pieces/status"),
                                    [](std::uint8_t v) { return v; });
-    t.candidates = read_candidates(file);
+    t.candidates = read_points(file);
     t.begin = file.read<std::int64_t>("coverage/indptr");
     t.apart = read_apart(file);
     return t;
+}
+
+void CoverageEntries::add(const std::filesystem::path& path) {
+    auto file = std::make_unique<h5::Reader>(path);
+    const auto count = static_cast<std::int64_t>(file->dims("coverage/indices").at(0));
+    const std::int64_t begin = parts_.empty() ? 0 : parts_.back().begin + parts_.back().count;
+    parts_.push_back({std::move(file), begin, count});
+}
+
+Candidates read_candidates(const std::filesystem::path& dir, CandidatePool pool) {
+    const std::filesystem::path axis = dir / coverage_name;
+    Candidates out{read_coverage(axis), CoverageEntries(axis)};
+    if (pool == CandidatePool::axis) return out;
+    const std::filesystem::path more = dir / pool_name;
+    if (!std::filesystem::exists(more)) {
+        throw IoError(
+            fmt::format("{}: missing, and plan.candidates = \"pool\" needs it; run the job "
+                        "again and it is made, or plan with plan.candidates=axis",
+                        more.string()));
+    }
+    const h5::Reader file(more);
+    check_version(file, more);
+    check_shards(more);
+    CoverageTables& t = out.tables;
+    t.pool = pool;
+    const std::vector<Candidate> some = read_points(file);
+    t.candidates.insert(t.candidates.end(), some.begin(), some.end());
+    const auto indptr = file.read<std::int64_t>("coverage/indptr");
+    const std::int64_t before = t.begin.back();
+    for (std::size_t i = 1; i < indptr.size(); ++i) t.begin.push_back(before + indptr[i]);
+    out.entries.add(more);
+    return out;
 }
 
 }  // namespace vfplan

@@ -2,8 +2,10 @@
 // (docs/file_format.md).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,9 @@
 #include "kernels/wall.h"
 
 namespace vfplan {
+
+inline constexpr const char* coverage_name = "coverage.h5";
+inline constexpr const char* pool_name = "pool.h5";
 
 // Rows of some candidates; `table` has as many.
 struct CoverageBlock {
@@ -35,6 +40,7 @@ struct CoverageTables {
     std::string key;
     std::string summary;
     Apart apart;  // by the overlap of the job that made the tables
+    CandidatePool pool = CandidatePool::axis;
 
     std::int64_t rows() const { return static_cast<std::int64_t>(begin.size()) - 1; }
     std::int64_t entries() const { return begin.back(); }
@@ -54,10 +60,17 @@ void write_coverage_index(const std::filesystem::path& path, const std::vector<W
 // Checks every shard, as FieldFile.
 CoverageTables read_coverage(const std::filesystem::path& path);
 
+// pool.h5: more candidates with their rows, over the pieces of a coverage.h5. `key`: of the pool.
+void write_pool_index(const std::filesystem::path& path,
+                      const std::vector<std::filesystem::path>& blocks, const std::string& key,
+                      std::int64_t pieces);
+
 // The entries of the rows, as far as they are asked for. Thread-safe.
 class CoverageEntries {
 public:
-    explicit CoverageEntries(const std::filesystem::path& path) : file_(path) {}
+    explicit CoverageEntries(const std::filesystem::path& path) { add(path); }
+    // Those of another table behind them.
+    void add(const std::filesystem::path& path);
     std::vector<std::int32_t> pieces(std::int64_t from, std::int64_t count) const {
         return read<std::int32_t>("indices", from, count);
     }
@@ -71,10 +84,36 @@ public:
 private:
     template <class T>
     std::vector<T> read(const char* name, std::int64_t from, std::int64_t count) const {
-        return file_.read<T>(std::string("coverage/") + name, static_cast<std::uint64_t>(from),
-                             static_cast<std::uint64_t>(count));
+        std::vector<T> out;
+        for (const Part& part : parts_) {
+            const std::int64_t first = std::max<std::int64_t>(0, from - part.begin);
+            const std::int64_t end = std::min(part.count, from + count - part.begin);
+            if (first >= end) continue;
+            std::vector<T> some = part.file->read<T>(std::string("coverage/") + name,
+                                                     static_cast<std::uint64_t>(first),
+                                                     static_cast<std::uint64_t>(end - first));
+            if (out.empty()) {
+                out = std::move(some);
+            } else {
+                out.insert(out.end(), some.begin(), some.end());
+            }
+        }
+        return out;
     }
-    h5::Reader file_;
+    struct Part {
+        std::unique_ptr<h5::Reader> file;
+        std::int64_t begin = 0;  // its first entry
+        std::int64_t count = 0;
+    };
+    std::vector<Part> parts_;
 };
+
+// coverage.h5 of a run directory, and pool.h5 behind it where it takes part.
+struct Candidates {
+    CoverageTables tables;
+    CoverageEntries entries;
+};
+// Throws IoError.
+Candidates read_candidates(const std::filesystem::path& dir, CandidatePool pool);
 
 }  // namespace vfplan

@@ -14,6 +14,7 @@ void write_plan(const std::filesystem::path& path, const PlanTable& t) {
     h5::Writer file = begin_table(path, "stations and links", t.key);
     file.attribute("/", "overlap_ratio", std::string(name_of(t.overlap.ratio)));
     file.attribute("/", "overlap_threshold", t.overlap.threshold);
+    file.attribute("/", "candidates", std::string(name_of(t.pool)));
     const auto& s = t.plan.stations;
     file.group("stations");
     file.write("stations/candidate",
@@ -63,6 +64,10 @@ PlanTable read_plan(const std::filesystem::path& path) {
     const auto ratio = std::find_if(overlap_ratios.begin(), overlap_ratios.end(), named);
     if (ratio == overlap_ratios.end()) damaged(path, "no ratio is called " + ratio_name);
     t.overlap = {ratio->ratio, file.number("/", "overlap_threshold")};
+    const auto& pools = Names<CandidatePool>::all;
+    const auto pool = std::find(pools.begin(), pools.end(), file.text("/", "candidates"));
+    if (pool == pools.end()) damaged(path, "no candidates are called so");
+    t.pool = static_cast<CandidatePool>(pool - pools.begin());
     const auto candidate = file.read<std::int32_t>("stations/candidate");
     const auto network = file.read<std::int32_t>("stations/component");
     const auto order = file.read<std::int32_t>("stations/order");

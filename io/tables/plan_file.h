@@ -13,6 +13,7 @@ struct PlanTable {
     Plan plan;
     std::string key;  // of the coverage table that it was made from
     OverlapRule overlap;
+    CandidatePool pool = CandidatePool::axis;
 };
 // Whole or not at all. Throws IoError.
 void write_plan(const std::filesystem::path& path, const PlanTable& table);
