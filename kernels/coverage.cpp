@@ -70,7 +70,7 @@ std::vector<double> piece_lengths_m(const Pieces& pieces) {
 }
 
 CoverageRow coverage_row(const std::vector<Wall>& walls, const Pieces& pieces, const Vec2d& eye,
-                         const View& observed, double visible_fraction) {
+                         const View& observed, double visible_fraction, bool angles) {
     std::vector<Part> parts;
     for (const Span& span : observed) {
         const auto w = static_cast<std::size_t>(span.wall);
@@ -93,9 +93,11 @@ CoverageRow coverage_row(const std::vector<Wall>& walls, const Pieces& pieces, c
             const double lo = std::max(from, begin);
             const double hi = std::min(to, end);
             if (!(hi > lo)) continue;
-            parts.push_back(
-                {first + k, hi - lo, end - begin,
-                 angle_upper_rad(height * (hi - lo), height * height + (lo - foot) * (hi - foot))});
+            const double angle_rad =
+                angles ? angle_upper_rad(height * (hi - lo),
+                                         height * height + (lo - foot) * (hi - foot))
+                       : 0;
+            parts.push_back({first + k, hi - lo, end - begin, angle_rad});
         }
     }
     std::stable_sort(parts.begin(), parts.end(),

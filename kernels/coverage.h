@@ -69,9 +69,10 @@ struct Seen {
 using CoverageRow = std::vector<Seen>;
 
 // C = 1 iff at least `visible_fraction` of the piece's length is observed. Everything observed
-// at all is returned when visible_fraction is 0. A tolerance of 1e-9 absorbs rounding.
+// at all is returned when visible_fraction is 0. A tolerance of 1e-9 absorbs rounding. Without
+// `angles`, a third of the work, all angle_rad are 0.
 CoverageRow coverage_row(const std::vector<Wall>& walls, const Pieces& pieces, const Vec2d& eye,
-                         const View& observed, double visible_fraction);
+                         const View& observed, double visible_fraction, bool angles = true);
 
 // The table: row i = pieces that candidate i covers, as compressed sparse rows.
 struct CoverageTable {

@@ -63,8 +63,8 @@ PoolOptions pool_options(const Config& c) {
 }
 
 PlanOptions plan_options(const Config& c) {
-    return {c.plan.method,   c.plan.candidates, c.plan.loops,
-            overlap_rule(c), c.plan.effort,     c.plan.proof_effort};
+    return {c.plan.method, c.plan.loops,        overlap_rule(c),
+            c.plan.effort, c.plan.proof_effort, c.plan.candidates};
 }
 
 }  // namespace vfplan

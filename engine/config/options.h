@@ -74,11 +74,11 @@ struct Names<PlanMethod> {
 
 struct PlanOptions {
     PlanMethod method = PlanMethod::refined;
-    CandidatePool candidates = CandidatePool::axis;
     bool loops = true;
     OverlapRule overlap;
-    std::int64_t effort = 35;          // steps of search for each station of the greedy plan
+    std::int64_t effort = 20;          // steps of search for each station of the greedy plan
     std::int64_t proof_effort = 8000;  // as prove() has it
+    CandidatePool candidates = CandidatePool::axis;
 };
 PlanOptions plan_options(const Config& config);
 

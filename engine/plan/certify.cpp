@@ -6,9 +6,17 @@
 namespace vfplan {
 namespace {
 
-NetworkProof certify_one(const PlanOptions& options, const Problem& problem, Network& network) {
+// In numbers of candidates and pieces instead of those of the problem.
+void number(const NetworkProblems& problems, const Network& network, NetworkProof& proof) {
+    renumber(network.members, problems.pieces(), proof);
+    for (GoneCandidate& g : proof.gone) {
+        g = {network.members[idx(g.gone)], network.members[idx(g.by)]};
+    }
+}
+
+NetworkProof certify_one(const PlanOptions& options, const Problem& problem,
+                         const NetworkProblems& problems, Network& network) {
     const Choice plan = columns_of(network.members, network.connected);
-    if (options.method != PlanMethod::certified) return weighed_proof(problem, plan);
     Proven proven = prove(problem, plan, options.proof_effort);
     if (proven.plan.size() < plan.size()) {
         network.connected.clear();
@@ -17,10 +25,18 @@ NetworkProof certify_one(const PlanOptions& options, const Problem& problem, Net
         }
         if (!options.loops) network.chosen = network.connected;
     }
+    number(problems, network, proven.proof);
     return std::move(proven.proof);
 }
 
 }  // namespace
+
+NetworkProof fast_proof(const Problem& problem, const NetworkProblems& problems,
+                        const Network& network, const Choice& plan) {
+    NetworkProof out = weighed_proof(problem, plan);
+    number(problems, network, out);
+    return out;
+}
 
 Certificate certify(const Threads& threads, const PlanInput& in, const PlanOptions& options,
                     const std::vector<std::int32_t>& owner, const std::vector<std::uint8_t>& fixed,
@@ -34,12 +50,11 @@ Certificate certify(const Threads& threads, const PlanInput& in, const PlanOptio
                 Network& network = networks[idx(n)];
                 const Problem problem =
                     problems.of(network.members, owner, static_cast<std::int32_t>(n), fixed);
-                out.networks[idx(n)] = certify_one(options, problem, network);
-                NetworkProof& proof = out.networks[idx(n)];
-                renumber(network.members, problems.pieces(), proof);
-                for (GoneCandidate& g : proof.gone) {
-                    g = {network.members[idx(g.gone)], network.members[idx(g.by)]};
-                }
+                out.networks[idx(n)] =
+                    options.method == PlanMethod::certified
+                        ? certify_one(options, problem, problems, network)
+                        : fast_proof(problem, problems, network,
+                                     columns_of(network.members, network.connected));
             }
         });
     return out;

@@ -5,12 +5,16 @@
 #include <vector>
 
 #include "engine/config/options.h"
-#include "engine/plan/refine.h"
+#include "engine/plan/network_problem.h"
 #include "engine/plan/workspace.h"
 #include "engine/runtime/parallel.h"
 #include "kernels/certificate.h"
 
 namespace vfplan {
+
+// Of a network's last problem, in numbers of candidates and pieces. `plan`: one of its plans.
+NetworkProof fast_proof(const Problem& problem, const NetworkProblems& problems,
+                        const Network& network, const Choice& plan);
 
 // Proves a bound for each network as it was before loops counted, which holds with loops as well:
 // fast ones, or, by the method `certified`, as good ones as its effort allows. A better plan that

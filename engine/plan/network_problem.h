@@ -9,6 +9,12 @@
 
 namespace vfplan {
 
+struct Network {
+    std::vector<std::int32_t> members;  // a component of the graph, ascending
+    Chosen chosen;
+    Chosen connected;  // the best plan before loops count
+};
+
 // Room for all networks of a job, so that a small one costs what it holds.
 class NetworkProblems {
 public:

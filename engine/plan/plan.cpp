@@ -143,9 +143,11 @@ Plan make_plan(const Threads& threads, const PlanInput& in, const PlanOptions& o
             if (options.loops) n.chosen = close_loops(in, n.chosen, work);
         }
     } else {
-        refine(threads, in, options, owner, fixed, networks);
+        plan.certificate = refine(threads, in, options, owner, fixed, networks);
     }
-    plan.certificate = certify(threads, in, options, owner, fixed, networks);
+    if (options.method != PlanMethod::refined) {
+        plan.certificate = certify(threads, in, options, owner, fixed, networks);
+    }
     for (const Network& n : networks) {
         report.connected += static_cast<std::int64_t>(n.connected.size());
     }

@@ -1,7 +1,7 @@
 #include "engine/plan/refine.h"
 
 #include "engine/graphs/cuts.h"
-#include "engine/plan/network_problem.h"
+#include "engine/plan/certify.h"
 #include "engine/search/reduce.h"
 #include "engine/search/search.h"
 
@@ -19,50 +19,51 @@ Choice searched(const Threads& threads, const Problem& whole, Reduce what, const
     return out;
 }
 
-// A network's better plan, where loops count or do not.
-Chosen refined(const Threads& threads, const PlanInput& in, const SearchOptions& options,
-               Problem problem, bool loops, const Network& network) {
-    const Choice choice = columns_of(network.members, network.chosen);
-    if (loops) {
-        problem.block = find_cuts(induced(in.graph, network.members)).block;
-        problem.loose.assign(idx(problem.columns()), 1);
-    }
-    Chosen out;
-    for (const std::int32_t c : searched(
-             threads, problem, loops ? Reduce::rows : Reduce::rows_and_columns, choice, options)) {
-        out.push_back(network.members[idx(c)]);
-    }
-    return out;
-}
-
 }  // namespace
 
-void refine(const Threads& threads, const PlanInput& in, const PlanOptions& options,
-            const std::vector<std::int32_t>& owner, const std::vector<std::uint8_t>& fixed,
-            std::vector<Network>& networks) {
-    // Both plans of a network start from the same one, so that they can be searched at once.
+Certificate refine(const Threads& threads, const PlanInput& in, const PlanOptions& options,
+                   const std::vector<std::int32_t>& owner, const std::vector<std::uint8_t>& fixed,
+                   std::vector<Network>& networks) {
+    // Both plans of a network start from the same one, so that they can be searched at once; that
+    // with loops takes longer, and begins first. The proof goes with the other.
+    Certificate proofs;
+    proofs.networks.resize(networks.size());
     const std::int64_t plans = options.loops ? 2 : 1;
-    std::vector<Chosen> found(networks.size() * idx(plans));
+    std::vector<Choice> found(networks.size() * idx(plans));
     threads.for_each(
         static_cast<std::int64_t>(found.size()), 1, [&](std::int64_t from, std::int64_t to) {
             NetworkProblems problems(in);
             for (std::int64_t task = from; task < to; ++task) {
                 const std::int64_t n = task / plans;
-                found[idx(task)] =
-                    refined(threads, in, {options.effort, static_cast<std::uint64_t>(n)},
-                            problems.of(networks[idx(n)].members, owner,
-                                        static_cast<std::int32_t>(n), fixed),
-                            task % plans > 0, networks[idx(n)]);
+                const Network& network = networks[idx(n)];
+                Problem problem =
+                    problems.of(network.members, owner, static_cast<std::int32_t>(n), fixed);
+                const Choice start = columns_of(network.members, network.chosen);
+                const SearchOptions search{options.effort, static_cast<std::uint64_t>(n)};
+                Choice& plan = found[idx(task)];
+                if (task % plans == plans - 2) {
+                    problem.block = find_cuts(induced(in.graph, network.members)).block;
+                    problem.loose.assign(idx(problem.columns()), 1);
+                    plan = searched(threads, problem, Reduce::rows, start, search);
+                } else {
+                    plan = searched(threads, problem, Reduce::rows_and_columns, start, search);
+                    proofs.networks[idx(n)] = fast_proof(problem, problems, network, plan);
+                }
             }
         });
     for (std::size_t n = 0; n < networks.size(); ++n) {
+        const auto chosen = [&](const Choice& plan) {
+            Chosen out;
+            for (const std::int32_t c : plan) out.push_back(networks[n].members[idx(c)]);
+            return out;
+        };
         const std::size_t first = n * idx(plans);
-        networks[n].chosen = std::move(found[first + idx(plans) - 1]);
-        networks[n].connected = networks[n].chosen;
-        if (options.loops && found[first].size() < networks[n].connected.size()) {
-            networks[n].connected = std::move(found[first]);
-        }
+        const Choice& connected = found[first + idx(plans) - 1];
+        networks[n].chosen = chosen(found[first]);
+        networks[n].connected =
+            connected.size() < networks[n].chosen.size() ? chosen(connected) : networks[n].chosen;
     }
+    return proofs;
 }
 
 }  // namespace vfplan

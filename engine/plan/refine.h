@@ -5,22 +5,17 @@
 #include <vector>
 
 #include "engine/config/options.h"
-#include "engine/plan/workspace.h"
+#include "engine/plan/network_problem.h"
 #include "engine/runtime/parallel.h"
+#include "kernels/certificate.h"
 
 namespace vfplan {
 
-struct Network {
-    std::vector<std::int32_t> members;  // a component of the graph, ascending
-    Chosen chosen;
-    Chosen connected;  // the best plan before loops count
-};
-
 // Makes each network better, without loops and then, where the options ask for them, with. Rows of
-// network k are the pieces with owner[piece] == k; fixed[candidate] stays. The number of threads
-// changes nothing.
-void refine(const Threads& threads, const PlanInput& input, const PlanOptions& options,
-            const std::vector<std::int32_t>& owner, const std::vector<std::uint8_t>& fixed,
-            std::vector<Network>& networks);
+// network k are the pieces with owner[piece] == k; fixed[candidate] stays. Gives fast proofs of how
+// few stations the networks could do with. The number of threads changes nothing.
+Certificate refine(const Threads& threads, const PlanInput& input, const PlanOptions& options,
+                   const std::vector<std::int32_t>& owner, const std::vector<std::uint8_t>& fixed,
+                   std::vector<Network>& networks);
 
 }  // namespace vfplan

@@ -8,12 +8,10 @@
 #include "engine/pool/pricing.h"
 #include "engine/pool/weights.h"
 #include "engine/tables/coverage.h"
-#include "io/h5_reader.h"
 #include "io/sha256.h"
 #include "io/tables/candidate_list.h"
 #include "io/tables/coverage_file.h"
 #include "io/tables/field_file.h"
-#include "io/tables/shard_index.h"
 
 namespace vfplan {
 namespace {
@@ -100,11 +98,9 @@ private:
     void find_points(int round, const PoolGrid& grid) {
         const std::filesystem::path file = job_.passing(phase("weights", round)).whole();
         make_one(job_, phase("weights", round), file, [&](const std::filesystem::path& path) {
-            h5::Writer out = begin_shard(path, job_.key);
-            out.write("weight", weigh_pieces(rows_before(round), axis_.pieces.size()));
-            finish_shard(out);
+            write_weights(path, job_.key, weigh_pieces(rows_before(round), axis_.pieces.size()));
         });
-        const std::vector<std::int64_t> weight = h5::Reader(file).read<std::int64_t>("weight");
+        const std::vector<std::int64_t> weight = read_weights(file);
         make_shards(job_, points(round), blocks_.count(),
                     [&](std::int64_t number, const std::filesystem::path& path) {
                         write_pool_squares(path, job_.key,

@@ -72,11 +72,7 @@ private:
             scene_ = job_.scenes.of_patch(patch);
             patch_ = patch;
         }
-        Pieces out;
-        for (const Seen& s : scene_->look(job_.layout().grid.centre(cell)).row) {
-            out.push_back(s.piece);
-        }
-        return out;
+        return scene_->covered(job_.layout().grid.centre(cell));
     }
 
     void take(std::int64_t cell, Pieces row) {

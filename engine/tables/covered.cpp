@@ -15,12 +15,12 @@ std::vector<std::int32_t> covered_from(const TableJob& job, const std::vector<Ve
         const std::vector<Vec2d> some(
             eyes.begin() + static_cast<std::ptrdiff_t>(from),
             eyes.begin() + static_cast<std::ptrdiff_t>(std::min(eyes.size(), from + at_once)));
-        std::vector<CoverageRow> rows(some.size());
+        std::vector<std::vector<std::int32_t>> rows(some.size());
         job.scenes.each(job.threads, some, [&](std::size_t i, const Scene& scene) {
-            rows[i] = scene.look(some[i]).row;
+            rows[i] = scene.covered(some[i]);
         });
-        for (const CoverageRow& row : rows) {
-            for (const Seen& s : row) bits[idx(s.piece) / 64] |= 1ULL << idx(s.piece) % 64;
+        for (const std::vector<std::int32_t>& row : rows) {
+            for (const std::int32_t p : row) bits[idx(p) / 64] |= 1ULL << idx(p) % 64;
         }
     }
     std::vector<std::int32_t> out;

@@ -100,12 +100,17 @@ void Scene::take_rays_enough(const Raster<std::uint8_t>& standable) const {
     }
 }
 
-Scene::Look Scene::look(const Vec2d& eye) const {
-    const Vec2d here = eye - origin_;
+View Scene::observed(const Vec2d& here) const {
     View hits;
     View seen;
     exact_->first_hits(here, hits);
     observe(walls_, options_.scanner, here, hits, seen);
+    return seen;
+}
+
+Scene::Look Scene::look(const Vec2d& eye) const {
+    const Vec2d here = eye - origin_;
+    const View seen = observed(here);
     Look out;
     out.vf_rad = view_angle_rad(seen);
     out.row = coverage_row(walls_, pieces_, here, seen, options_.visible_fraction);
@@ -114,6 +119,16 @@ Scene::Look Scene::look(const Vec2d& eye) const {
         out.length_m.push_back(length_m_[idx(s.piece)]);
         s.piece = site_piece(s.piece);
     }
+    return out;
+}
+
+std::vector<std::int32_t> Scene::covered(const Vec2d& eye) const {
+    const Vec2d here = eye - origin_;
+    const CoverageRow row =
+        coverage_row(walls_, pieces_, here, observed(here), options_.visible_fraction, false);
+    std::vector<std::int32_t> out;
+    out.reserve(row.size());
+    for (const Seen& s : row) out.push_back(site_piece(s.piece));
     return out;
 }
 

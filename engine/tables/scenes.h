@@ -36,6 +36,8 @@ public:
     };
     // REQUIRES: the eye lies in the patch, or within eye_margin_m of it.
     Look look(const Vec2d& eye) const;
+    // Only the pieces of that row.
+    std::vector<std::int32_t> covered(const Vec2d& eye) const;
 
     // Before the first field() of a patch: takes rays enough that the field's mean error at a
     // sample of its cells is well below what verify allows. Depends on the patch alone. `standable`
@@ -55,6 +57,8 @@ public:
     std::int32_t site_piece(std::int32_t piece) const { return site_piece_[idx(piece)]; }
 
 private:
+    View observed(const Vec2d& here) const;  // in the patch's frame
+
     SceneOptions options_;
     Vec2d origin_;
     Grid grid_;  // the patch's cells in its own frame

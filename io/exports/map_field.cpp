@@ -13,7 +13,7 @@ constexpr Rgb viridis_anchors[16] = {
     {122, 209, 81}, {165, 219, 54}, {210, 226, 27}, {253, 231, 37}};
 
 std::uint8_t mix(std::uint8_t a, std::uint8_t b, double t) {
-    return static_cast<std::uint8_t>(std::lround(a + (b - a) * t));
+    return static_cast<std::uint8_t>(a + (b - a) * t + 0.5);
 }
 
 Rgb mix(const Rgb& a, const Rgb& b, double t) {

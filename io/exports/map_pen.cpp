@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "io/exports/png.h"
+
 namespace vfplan::pen {
 namespace {
 
@@ -92,6 +94,14 @@ void dot(cairo_t* c, double x, double y, double radius, const Rgb& colour, doubl
     set(c, ink);
     cairo_set_line_width(c, std::min(1.6 * u, radius / 2));
     cairo_stroke(c);
+}
+
+std::string picture_of(cairo_surface_t* surface, const std::string& what) {
+    cairo_surface_flush(surface);
+    const int stride = cairo_image_surface_get_stride(surface) / 4;
+    return png_of(reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(surface)),
+                  cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface),
+                  stride, what);
 }
 
 }  // namespace vfplan::pen

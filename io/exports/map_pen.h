@@ -27,6 +27,8 @@ void stroke(cairo_t* c, const std::vector<Segment>& segments, const Rgb& colour,
 // With a casing of another colour around them.
 void cased(cairo_t* c, const std::vector<Segment>& segments, const Rgb& colour, double width,
            const Rgb& casing, double casing_width);
+// What is drawn, as PNG. REQUIRES: an image of format RGB24. Throws as vfplan::png_of().
+std::string picture_of(cairo_surface_t* surface, const std::string& what);
 void dot(cairo_t* c, double x, double y, double radius, const Rgb& colour, double u);
 
 }  // namespace vfplan::pen

@@ -327,16 +327,6 @@ void draw_legend(cairo_t* c, const MapLayout& l, const std::vector<LegendEntry>&
     }
 }
 
-cairo_status_t append(void* closure, const unsigned char* data, unsigned int length) {
-    // No exception may pass through cairo.
-    try {
-        static_cast<std::string*>(closure)->append(reinterpret_cast<const char*>(data), length);
-    } catch (...) {
-        return CAIRO_STATUS_NO_MEMORY;
-    }
-    return CAIRO_STATUS_SUCCESS;
-}
-
 }  // namespace
 
 std::string map_png(const MapInput& input, int pixels) {
@@ -386,9 +376,7 @@ std::string map_png(const MapInput& input, int pixels) {
     draw_legend(c, l, entries, max_rad);
 
     check(cairo_status(c));
-    std::string png;
-    check(cairo_surface_write_to_png_stream(surface.get(), append, &png));
-    return png;
+    return picture_of(surface.get(), "map.png");
 }
 
 }  // namespace vfplan

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "io/exports/map_pen.h"
 #include "kernels/error.h"
 #include "kernels/free_cells.h"
 #include "kernels/index.h"
@@ -93,15 +94,7 @@ std::string site_png(const Site& site, int pixels) {
     }
     for (const Wall& w : site.walls)
         line(w.a, w.b, class_colours[idx(static_cast<int>(w.cls))], 1.4, 0);
-    std::string png;
-    check(cairo_surface_write_to_png_stream(
-        surface.get(),
-        [](void* to, const unsigned char* bytes, unsigned n) {
-            static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(bytes), n);
-            return CAIRO_STATUS_SUCCESS;
-        },
-        &png));
-    return png;
+    return pen::picture_of(surface.get(), "the picture of the site");
 }
 
 }  // namespace vfplan

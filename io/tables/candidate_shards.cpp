@@ -118,6 +118,17 @@ CellRows read_taken(const std::filesystem::path& path) {
     return rows_in(h5::Reader(path), "taken/");
 }
 
+void write_weights(const std::filesystem::path& path, const std::string& key,
+                   const std::vector<std::int64_t>& weight) {
+    h5::Writer file = begin_shard(path, key);
+    file.write("weight", weight);
+    finish_shard(file);
+}
+
+std::vector<std::int64_t> read_weights(const std::filesystem::path& path) {
+    return h5::Reader(path).read<std::int64_t>("weight");
+}
+
 void write_rescue_tile(const std::filesystem::path& path, const std::string& key,
                        const RescueTile& tile) {
     h5::Writer file = begin_shard(path, key);

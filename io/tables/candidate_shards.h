@@ -62,6 +62,11 @@ std::vector<PoolSquare> read_pool_squares(const std::filesystem::path& path);
 // Of all squares together.
 CellRows read_taken(const std::filesystem::path& path);
 
+// work/.../weights-ROUND.h5: what each piece weighs.
+void write_weights(const std::filesystem::path& path, const std::string& key,
+                   const std::vector<std::int64_t>& weight);
+std::vector<std::int64_t> read_weights(const std::filesystem::path& path);
+
 // work/.../rescues-TILE.h5: pieces that nothing else covers, each with the best cell that sees
 // enough of it (-1: none does), and which such pieces each of these cells covers.
 struct RescueTile {
