@@ -55,11 +55,12 @@ SceneOptions scene_options(const Config& c) {
 }
 
 TableOptions table_options(const Config& c) {
-    return {scene_options(c), c.field.tile_cells, c.field.threshold_rad, overlap_rule(c), {}, {}};
-}
-
-PoolOptions pool_options(const Config& c) {
-    return {c.plan.pool_tried, c.plan.pool_taken, scene_options(c), c.site.snap_m};
+    TableOptions out{
+        scene_options(c), c.field.tile_cells, c.field.threshold_rad, overlap_rule(c), {}, {}, {}};
+    if (c.plan.candidates == CandidatePool::pool) {
+        out.pool = {c.plan.pool_tried, c.plan.pool_taken, out.scenes, c.site.snap_m};
+    }
+    return out;
 }
 
 PlanOptions plan_options(const Config& c) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -45,6 +46,13 @@ struct SceneOptions {
 };
 SceneOptions scene_options(const Config& config);
 
+// More candidates than the tables have.
+struct PoolOptions {
+    double tried = 14;    // points for each candidate of the tables
+    double taken = 0;     // likewise, of a coarser grid
+    SceneOptions scenes;  // as the tables have them
+    double snap_m = 0.001;
+};
 // The way from a stored site to its tables.
 struct TableOptions {
     SceneOptions scenes;
@@ -54,17 +62,9 @@ struct TableOptions {
     std::vector<Vec2d>
         required;  // the user's points in the site's frame; make_tables() has them from it
     std::vector<Vec2d> existing;
+    std::optional<PoolOptions> pool;  // is made behind them, where the plan asks for it
 };
 TableOptions table_options(const Config& config);
-
-// More candidates than the tables have.
-struct PoolOptions {
-    double tried = 14;    // points for each candidate of the tables
-    double taken = 0;     // likewise, of a coarser grid
-    SceneOptions scenes;  // as the tables have them
-    double snap_m = 0.001;
-};
-PoolOptions pool_options(const Config& config);
 
 enum class PlanMethod : std::uint8_t { greedy, refined, certified };
 template <>

@@ -55,8 +55,8 @@ void tables_of(const RunDir& dir, const Config& config, const JobKeys& keys, boo
 // pool.h5, as far as it is missing and asked for; on all ranks.
 void add_pool(const RunDir& dir, const Config& config, const Threads& threads, const Ranks& ranks,
               Progress& progress) {
-    if (config.plan.candidates != CandidatePool::pool) return;
-    make_pool(dir.path(), pool_options(config), threads, ranks, progress);
+    const TableOptions options = table_options(config);
+    if (options.pool) make_pool(dir.path(), *options.pool, threads, ranks, progress);
 }
 
 // The files that are asked for; what is not does not stay from a plan before.

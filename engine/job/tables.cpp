@@ -39,16 +39,6 @@ Json field_summary(KernelKind kernel, const FieldCounts& c) {
     return {{"field_work", j}};
 }
 
-void make_field_index(const TableJob& job, const SiteStore& site, const FieldTiles& field) {
-    make_one(job, index_phase, job.dir / field_name, [&](const std::filesystem::path& path) {
-        const Json summary = field_summary(job.scenes.options().kernel, field.counts());
-        write_field_index(
-            path,
-            {field.layout(), site.facts().origin, site.facts().crs_wkt, job.key, summary.dump()},
-            field.shards());
-    });
-}
-
 void make_coverage_index(const TableJob& job, const SiteStore& site,
                          const std::vector<std::filesystem::path>& blocks, const Json& search,
                          const Apart& apart) {
@@ -84,6 +74,16 @@ void check_ridges(const TableJob& job, const RidgeTiles& ridges, const TableOpti
 }
 
 }  // namespace
+
+void make_field_index(const TableJob& job, const SiteStore& site, const FieldTiles& field) {
+    make_one(job, index_phase, job.dir / field_name, [&](const std::filesystem::path& path) {
+        const Json summary = field_summary(job.scenes.options().kernel, field.counts());
+        write_field_index(
+            path,
+            {field.layout(), site.facts().origin, site.facts().crs_wkt, job.key, summary.dump()},
+            field.shards());
+    });
+}
 
 bool tables_complete(const std::filesystem::path& dir, const std::string& key, Progress& progress) {
     const bool field = have_table(dir / field_name, key, progress);

@@ -23,7 +23,9 @@ void make_tables(const TableOptions& options, const std::filesystem::path& dir,
                  const std::string& key, const Threads& threads, const Ranks& ranks,
                  Progress& progress);
 
-// Its second half, from ridges to coverage.h5.
+// Its parts: field.h5 of a field that is made,
+void make_field_index(const TableJob& job, const SiteStore& site, const FieldTiles& field);
+// and its second half, from ridges to coverage.h5.
 void make_coverage_table(const TableJob& job, const SiteStore& site, const FieldTiles& field,
                          const RidgeTiles& ridges, const TableOptions& options);
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "engine/job/tables.h"
+#include "engine/pool/pool.h"
 #include "engine/runtime/progress.h"
 #include "engine/runtime/ranks.h"
 #include "engine/tables/field.h"
@@ -61,7 +62,15 @@ Trial try_part(const GroundOptions& ground, const TableOptions& options, const S
     out.free_cells = static_cast<double>(site.facts().free_cells);
     if (ridges.joints() > 0 || ridges.ridges() > 0) {
         make_coverage_table(job, site, field, ridges, options);
-        const CoverageTables tables = read_coverage(dir / "coverage.h5");
+        CandidatePool with = CandidatePool::axis;
+        if (options.pool) {
+            with = CandidatePool::pool;
+            PoolOptions pool = *options.pool;
+            pool.scenes = options.scenes;
+            make_field_index(job, site, field);
+            make_pool(dir, pool, threads, alone, quiet);
+        }
+        const CoverageTables tables = read_candidates(dir, with).tables;
         out.candidates = static_cast<double>(tables.rows());
         out.entries = static_cast<double>(tables.entries());
     }
@@ -70,7 +79,8 @@ Trial try_part(const GroundOptions& ground, const TableOptions& options, const S
         out.cpu_s[t.name] += std::max(0.0, t.cpu_s - phase_s);
     }
     out.field_bytes = bytes_below(dir / "shards", "field", field_bytes);
-    out.coverage_bytes = bytes_below(dir / "shards", "coverage", coverage_bytes);
+    out.coverage_bytes = bytes_below(dir / "shards", "coverage", coverage_bytes) +
+                         bytes_below(dir / "shards", "pool", coverage_bytes);
     const std::filesystem::path passing =
         dir / "work" / fmt::format("tiles-{}", options.tile_cells);
     out.working_bytes =

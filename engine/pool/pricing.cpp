@@ -29,15 +29,18 @@ public:
         }
         const std::size_t most = out_.taken.cell.size() + tried_.size() / 4 + 1;
         std::vector<std::int64_t> score(tried_.size());
+        int long_shots = 0;
         while (out_.taken.cell.size() < most) {
             std::size_t best = tried_.size();
             for (std::size_t i = 0; i < tried_.size(); ++i) {
                 score[i] = used_[i] != 0 ? 0 : sum(rows_[i]);
-                if (score[i] > proof_scale && (best == tried_.size() || score[i] > score[best])) {
+                if (score[i] > worth_another_look &&
+                    (best == tried_.size() || score[i] > score[best])) {
                     best = i;
                 }
             }
             if (best == tried_.size()) break;
+            if (score[best] <= proof_scale && ++long_shots > most_long_shots) break;
             used_[best] = 1;
             climb(tried_[best], score[best]);
         }
@@ -46,6 +49,7 @@ public:
 
 private:
     static constexpr std::int64_t worth_another_look = proof_scale * 6 / 10;
+    static constexpr int most_long_shots = 4;  // of points that may come to more than 1 by moving
     using Pieces = std::vector<std::int32_t>;
 
     bool standable(std::int32_t ix, std::int32_t iy) const {
@@ -81,19 +85,18 @@ private:
         out_.taken.covers.push_back(std::move(row));
     }
 
-    // What covers this much may cover more than 1 when pieces are weighed anew.
     void keep(std::int64_t cell, Pieces row) {
-        if (try_point(cell, row) <= worth_another_look) return;
+        if (!try_point(cell, row)) return;
         out_.again.cell.push_back(cell);
         out_.again.covers.push_back(std::move(row));
     }
 
-    // Within a round weights only fall, so points that cover no more than 1 never will. Of the
-    // others the row, as places among the pieces here that weigh something.
-    std::int64_t try_point(std::int64_t cell, const Pieces& row) {
+    // Within a round weights only fall, so points that cover far less than 1 never come to more. Of
+    // the others the row, as places among the pieces here that weigh something.
+    bool try_point(std::int64_t cell, const Pieces& row) {
         std::int64_t all = 0;
         for (const std::int32_t p : row) all += weight_[idx(p)];
-        if (all <= proof_scale) return all;
+        if (all <= worth_another_look) return false;
         Pieces places;
         for (const std::int32_t p : row) {
             if (weight_[idx(p)] == 0) continue;
@@ -104,7 +107,7 @@ private:
         tried_.push_back(cell);
         rows_.push_back(std::move(places));
         used_.push_back(0);
-        return all;
+        return true;
     }
 
     std::int64_t sum(const Pieces& places) const {
@@ -124,13 +127,15 @@ private:
         return out;
     }
 
-    // From a tried point to where it covers most around, and takes that.
+    // From a tried point to where one covers most around, and takes that if it is more than 1.
     void climb(std::int64_t cell, std::int64_t score) {
         const Grid& grid = job_.layout().grid;
         Pieces row = look(cell);
-        for (std::int32_t step = grid_.tried / 2; step > 0; step /= 2) {
-            const std::int32_t x = grid.ix(cell);
-            const std::int32_t y = grid.iy(cell);
+        int moves = 0;
+        for (std::int32_t step = std::max(1, grid_.tried / 2); step > 0;) {
+            const std::int64_t from = cell;
+            const std::int32_t x = grid.ix(from);
+            const std::int32_t y = grid.iy(from);
             for (std::int32_t k = 0; k < 9; ++k) {
                 const std::int32_t ix = x + (k % 3 - 1) * step;
                 const std::int32_t iy = y + (k / 3 - 1) * step;
@@ -142,7 +147,9 @@ private:
                 cell = grid.id(ix, iy);
                 row = std::move(other);
             }
+            if (cell == from || step > 1 || ++moves > grid_.tried / 2) step /= 2;
         }
+        if (score <= proof_scale) return;
         // As much less as keeps the next ones apart, and lets some stand in for others.
         const double less = 1 / std::sqrt(static_cast<double>(score) / proof_scale);
         for (const std::int32_t p : row) {

@@ -102,7 +102,8 @@ std::int64_t greedy_cover(const Problem& p) {
 std::vector<std::int64_t> weigh_pieces(const Sparse& rows, std::int64_t pieces) {
     const Classes classes = classes_of(rows, pieces);
     const Problem problem = cover_problem(rows, classes);
-    const std::vector<std::int64_t> weight = weigh_rows(problem, greedy_cover(problem), rounds);
+    const std::vector<std::int64_t> weight =
+        weigh_rows(problem, greedy_cover(problem), rounds, WeighUntil::spent);
     std::vector<std::int64_t> out(idx(pieces), 0);
     for (std::size_t p = 0; p < out.size(); ++p) {
         const std::int32_t mine = classes.of[p];

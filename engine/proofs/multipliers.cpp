@@ -7,7 +7,8 @@
 
 namespace vfplan {
 
-std::vector<std::int64_t> weigh_rows(const Problem& p, std::int64_t stations, std::int64_t rounds) {
+std::vector<std::int64_t> weigh_rows(const Problem& p, std::int64_t stations, std::int64_t rounds,
+                                     WeighUntil until) {
     const std::size_t rows = idx(p.rows());
     // What a fixed column covers weighs nothing.
     std::vector<std::uint8_t> open(rows, 1);
@@ -52,7 +53,7 @@ std::vector<std::int64_t> weigh_rows(const Problem& p, std::int64_t stations, st
             best = value;
             best_u = u;
         }
-        if (best > goal - 1 + 1e-6) break;
+        if (until == WeighUntil::proven && best > goal - 1 + 1e-6) break;
         if (++since > 15) {
             pace *= 0.7;
             since = 0;

@@ -157,7 +157,8 @@ TEST(RanksUnderMpirun, WholeRunHasTheSameResult) {
         EXPECT_EQ(tiles.code, 0) << tiles.err;
         EXPECT_EQ(read_json(Path(dir) / "summary.json")["result_sha256"],
                   read_json(scratch / "one/summary.json")["result_sha256"]);
-        for (const char* name : {"coverage.h5", "plan.h5", "stations.csv", "links.csv"}) {
+        for (const char* name :
+             {"coverage.h5", "pool.h5", "plan.h5", "stations.csv", "links.csv"}) {
             EXPECT_EQ(read_bytes(Path(dir) / name), read_bytes(Path(scratch / "one") / name))
                 << name << ", tiles of " << side;
         }

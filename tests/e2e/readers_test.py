@@ -52,13 +52,24 @@ class Run:
         self.field = h5py.File(self.dir / "field.h5", "r")
         self.coverage = h5py.File(self.dir / "coverage.h5", "r")
         self.plan = h5py.File(self.dir / "plan.h5", "r")
-        group = self.coverage["coverage"]
-        self.table = scipy.sparse.csr_matrix(
-            (group["data"][:], group["indices"][:], group["indptr"][:]), shape=group.attrs["shape"]
+        self.pool = h5py.File(self.dir / "pool.h5", "r")
+        # A plan's candidates are those of coverage.h5, then those of pool.h5.
+        self.table = scipy.sparse.vstack(
+            [
+                scipy.sparse.csr_matrix(
+                    (group["data"][:], group["indices"][:], group["indptr"][:]),
+                    shape=group.attrs["shape"],
+                )
+                for group in (self.coverage["coverage"], self.pool["coverage"])
+            ],
+            format="csr",
         )
         pieces = self.coverage["pieces"]
         self.length = pieces["s1_m"][:] - pieces["s0_m"][:]
         self.origin = [self.field["crs"].attrs[f"origin_{a}_m"] for a in "xy"]
+
+    def candidates(self, name):
+        return np.concatenate([f[f"candidates/{name}"][:] for f in (self.coverage, self.pool)])
 
     def rows(self, name):
         with open(self.dir / name, newline="") as file:
@@ -90,7 +101,7 @@ class Readers(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         for run in cls.runs.values():
-            for file in (run.field, run.coverage, run.plan):
+            for file in (run.field, run.coverage, run.pool, run.plan):
                 file.close()
         cls.folder.cleanup()
 
@@ -136,18 +147,17 @@ class Readers(unittest.TestCase):
 
     @on_every_run
     def test_candidates_lie_on_the_field(self, run):
-        c = run.coverage["candidates"]
-        vf, cell = run.field["vf"][:], c["cell"][:]
+        vf, cell = run.field["vf"][:], run.candidates("cell")
         on = cell >= 0
         # Off the cells' centres there are connectors only.
-        kinds = dict(pair.split(" ") for pair in text(c["kind"].attrs["meaning"]).split(", "))
-        self.assertEqual({kinds[str(k)] for k in c["kind"][:][~on]} - {"connector"}, set())
+        kinds = dict(pair.split(" ") for pair in text(run.coverage["candidates/kind"].attrs["meaning"]).split(", "))
+        self.assertEqual({kinds[str(k)] for k in run.candidates("kind")[~on]} - {"connector"}, set())
         row, column = np.divmod(cell[on], vf.shape[1])
-        np.testing.assert_array_equal(vf[row, column], c["vf"][:][on])
+        np.testing.assert_array_equal(vf[row, column], run.candidates("vf")[on])
         # Their places are the cells' centres: in the site frame, the field in the input's.
         for axis, at, origin in (("x", column, run.origin[0]), ("y", row, run.origin[1])):
             centres = run.field[axis][:][at]
-            np.testing.assert_allclose(c[axis][:][on] + origin, centres, atol=1e-9)
+            np.testing.assert_allclose(run.candidates(axis)[on] + origin, centres, atol=1e-9)
         self.assertEqual(len(np.unique(cell[on])), on.sum())
         self.assertEqual(len(cell), run.summary["candidates"])
 
@@ -158,19 +168,22 @@ class Readers(unittest.TestCase):
 
     @on_every_run
     def test_coverage_is_csr(self, run):
-        group, table = run.coverage["coverage"], run.table
-        self.assertEqual(text(group.attrs["encoding-type"]), "csr_matrix")
-        self.assertEqual(text(group.attrs["encoding-version"]), "0.1.0")
-        self.assertEqual(group["indptr"].dtype, np.int64)
-        self.assertEqual(group["indices"].dtype, np.int32)
+        table = run.table
+        angles = [f["coverage/angle_rad"][:] for f in (run.coverage, run.pool)]
+        for file in (run.coverage, run.pool):
+            group = file["coverage"]
+            self.assertEqual(text(group.attrs["encoding-type"]), "csr_matrix")
+            self.assertEqual(text(group.attrs["encoding-version"]), "0.1.0")
+            self.assertEqual(group["indptr"].dtype, np.int64)
+            self.assertEqual(group["indices"].dtype, np.int32)
         table.check_format(full_check=True)
         self.assertEqual(table.shape, (run.summary["candidates"], run.summary["pieces"]))
         for a, b in zip(table.indptr, table.indptr[1:]):
             self.assertTrue((np.diff(table.indices[a:b]) > 0).all(), "sorted, none twice")
-        self.assertEqual(len(group["angle_rad"]), table.nnz)
+        self.assertEqual(sum(map(len, angles)), table.nnz)
         self.assertGreaterEqual(table.data.min(), 0.5)  # visible_fraction
         self.assertLessEqual(table.data.max(), 1 + 1e-6)
-        self.assertGreater(group["angle_rad"][:].min(), 0)
+        self.assertGreater(np.concatenate(angles).min(), 0)
 
     @on_every_run
     def test_status_and_lengths(self, run):
@@ -203,7 +216,7 @@ class Readers(unittest.TestCase):
         )
         for i, row in enumerate(run.rows("stations.csv")):
             for axis, origin in zip("xy", run.origin):
-                at = run.coverage[f"candidates/{axis}"][station[i]] + origin
+                at = run.candidates(axis)[station[i]] + origin
                 self.assertAlmostEqual(at, float(row[axis]), delta=6e-5)
 
     @on_every_run
@@ -373,7 +386,8 @@ class Readers(unittest.TestCase):
             content, line = path.read_bytes()[:-80], path.read_bytes()[-80:]
             want = f"\nvfplan sha256 {hashlib.sha256(content).hexdigest()}\n".encode()
             self.assertEqual(line, want, path)
-        for index, pattern in ((run.field, "field-*"), (run.coverage, "coverage-*")):
+        indices = (run.field, "field-*"), (run.coverage, "coverage-*"), (run.pool, "pool-*")
+        for index, pattern in indices:
             listed = [bytes(row).hex() for row in index["tile_sha256"][:]]
             shards = sorted(run.dir.glob(f"shards/{pattern}.h5"))
             self.assertEqual(
@@ -385,7 +399,7 @@ class Readers(unittest.TestCase):
     def test_coverage_by_anndata(self, run):
         table = anndata.experimental.read_elem(run.coverage["coverage"])
         self.assertTrue(scipy.sparse.isspmatrix_csr(table))
-        self.assertEqual((table != run.table).nnz, 0)
+        self.assertEqual((table != run.table[: table.shape[0]]).nnz, 0)
 
     def expect_raster(self, run, size, transform, band):
         vf, cell = run.field["vf"][:], run.field["vf"].attrs["cell_m"]

@@ -135,7 +135,7 @@ TEST_F(Resume, DamagedShardsAreNamedAndMadeAgain) {
 }
 
 TEST_F(Resume, DamagedIndicesAreNamedAndMadeAgain) {
-    for (const char* name : {"field.h5", "coverage.h5"}) {
+    for (const char* name : {"field.h5", "coverage.h5", "pool.h5"}) {
         for (const double where : {0.0, 0.3, 0.999}) {
             const Path dir = copy_of_whole("damaged");
             flip_a_bit(dir / name, where);

@@ -61,7 +61,7 @@ void expect_whole(const Path& dir) {
         EXPECT_DOUBLE_EQ(s["gap_" + kind].get<double>(), (stations - bound) / stations) << kind;
         EXPECT_LE(bound, stations) << kind;
     }
-    EXPECT_EQ(s["candidate_pool"]["name"], "axis");
+    EXPECT_EQ(s["candidate_pool"]["name"], "pool");
     EXPECT_EQ(s["candidate_pool"]["candidates"], s["candidates"]);
 }
 

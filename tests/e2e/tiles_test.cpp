@@ -50,8 +50,9 @@ TEST_P(Tiles, SidesAndThreadsDoNotMatter) {
         SCOPED_TRACE(std::string("tiles of ") + side + ", threads " + threads);
         EXPECT_EQ(read_json(first / "summary.json")["result_sha256"],
                   read_json(other / "summary.json")["result_sha256"]);
-        for (const char* name : {"coverage.h5", "shards/coverage-00000.h5", "plan.h5",
-                                 "stations.csv", "stations.geojson", "links.csv", "pieces.csv"}) {
+        for (const char* name :
+             {"coverage.h5", "shards/coverage-00000.h5", "pool.h5", "shards/pool-00000.h5",
+              "plan.h5", "stations.csv", "stations.geojson", "links.csv", "pieces.csv"}) {
             EXPECT_EQ(read_bytes(first / name), read_bytes(other / name)) << name;
         }
         expect_same_field(first, other);

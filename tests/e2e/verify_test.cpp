@@ -199,7 +199,10 @@ TEST_F(Verify, DamagedShardsAreNamed) {
              std::vector<std::function<void(const Path&)>>{flip, cut, remove}) {
             for (const char* command : {"verify", "plan"}) {
                 const Output o = after(damage, command);
-                EXPECT_EQ(o.code, 4) << command << " " << name << "\n" << o.out << o.err;
+                // The pool follows from the tables, so plan makes it again.
+                const bool mends = command == std::string("plan") && name.starts_with("pool-");
+                EXPECT_EQ(o.code, mends ? 0 : 4) << command << " " << name << "\n"
+                                                 << o.out << o.err;
                 EXPECT_NE(o.err.find(name), std::string::npos) << command << "\n" << o.err;
             }
         }

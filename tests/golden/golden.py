@@ -7,7 +7,7 @@ tests/golden/hashes.json: what a change of the code must not change.
     golden.py same DIR DIR          compare two run directories
                 [--renamed OLD=NEW] a dataset that has another name in the second one; repeatable
 
-Compared are all datasets of field.h5, coverage.h5 and plan.h5, read through their indices (type, shape
+Compared are all datasets of field.h5, coverage.h5, pool.h5 and plan.h5, read through their indices (type, shape
 and bytes), the CSV and GeoJSON files, and result_sha256. Left out are attributes, which hold the job's
 key, and the checksums of shards, which hold the shards' attributes.
 """
@@ -24,7 +24,7 @@ import h5py
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 HASHES = os.path.join(HERE, "hashes.json")
-TABLES = ["field.h5", "coverage.h5", "plan.h5"]
+TABLES = ["field.h5", "coverage.h5", "pool.h5", "plan.h5"]
 TEXTS = ["stations.csv", "stations.geojson", "links.csv", "pieces.csv"]
 CHECKSUMS = ["tile_sha256"]
 
