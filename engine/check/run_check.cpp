@@ -87,6 +87,7 @@ RunCheck check_plan(const CoverageTables& t, const CoverageEntries& entries, con
     std::vector<std::int32_t> owner(length_m.size(), -1);
     Lists networks;
     for (std::vector<std::int32_t>& members : ranked_components(rows, length_m, near)) {
+        if (t.candidates[idx(members.front())].kind == CandidateKind::pool) continue;
         bool wanted = false;
         for (const std::int32_t c : members) {
             wanted = wanted || standing[idx(c)] != 0;

@@ -130,13 +130,18 @@ std::vector<double> joins_at(std::vector<Neighbours> pairs,
     return out;
 }
 
-// What overlaps over free cells. Components of these alone come behind the others.
-void add_pairs(const Apart& apart, const std::vector<std::int32_t>& component,
-               std::vector<std::int32_t>& network_of, std::vector<Neighbours>& pairs) {
+// What overlaps over free cells. Components of these alone come behind the others; their names
+// begin where those of the axis' candidates end.
+void add_pairs(const Apart& apart, const std::vector<Candidate>& candidates,
+               const std::vector<std::int32_t>& component, std::vector<std::int32_t>& network_of,
+               std::vector<Neighbours>& pairs) {
     const std::size_t count = network_of.size();
+    const std::size_t axis =
+        idx(std::count_if(candidates.begin(), candidates.end(),
+                          [](const Candidate& c) { return c.kind != CandidateKind::pool; }));
     const auto of = [&](std::int32_t name) {
-        if (idx(name) < component.size()) return component[idx(name)];
-        const std::size_t behind = count + idx(name) - component.size();
+        if (idx(name) < axis) return component[idx(name)];
+        const std::size_t behind = count + idx(name) - axis;
         if (behind >= network_of.size()) network_of.resize(behind + 1, -1);
         return static_cast<std::int32_t>(behind);
     };
@@ -162,7 +167,7 @@ JoinThresholds find_join_thresholds(const Threads& threads, const PlanInput& in,
     std::vector<Neighbours> pairs = neighbours(in, component, rule, by_min_len);
     if (apart.rule.ratio == rule.ratio && apart.rule.threshold >= rule.threshold) {
         out.free_cells = apart.free_cells;
-        add_pairs(apart, component, network_of, pairs);
+        add_pairs(apart, in.candidates, component, network_of, pairs);
     }
     out.joins_at = joins_at(std::move(pairs), network_of, networks);
 

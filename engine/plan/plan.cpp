@@ -118,6 +118,9 @@ Plan make_plan(const Threads& threads, const PlanInput& in, const PlanOptions& o
     std::vector<std::uint8_t> fixed(idx(in.graph.size()), 0);
     std::vector<std::int32_t> owner(in.piece_length_m.size(), -1);
     for (std::vector<std::int32_t>& members : ranked_components(in)) {
+        // Points off the ridges that overlap with none on them make no network of their own: what
+        // they cover is covered without. Of all candidates they come last.
+        if (in.candidates[idx(members.front())].kind == CandidateKind::pool) continue;
         std::vector<std::int32_t> forced;
         bool adds = false;
         const auto number = static_cast<std::int32_t>(networks.size());
