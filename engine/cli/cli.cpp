@@ -213,9 +213,10 @@ int dispatch(int argc, char** argv, const Ranks& ranks) {
     CLI::App* plan = app.add_subcommand(
         "plan", "Plans again from a run directory's tables alone, without geometry");
     plan->add_option("DIR", s.dir, "Run directory")->required();
+    plan->add_option("--out", s.out,
+                     "Puts the plan into a folder of its own, with the tables; DIR stays as it is");
     add_sets(*plan, s,
-             "Replaces plan.method, plan.loops, plan.effort, overlap.* (no higher threshold) or "
-             "output.*");
+             "Replaces plan.* but points and areas, overlap.* (no higher threshold) or output.*");
     add_common(*plan, s);
     CLI::App* check = app.add_subcommand(
         "verify", "Looks again from every station with the exact kernel; says yes or no");
@@ -273,7 +274,7 @@ int dispatch(int argc, char** argv, const Ranks& ranks) {
         return 0;
     }
     Progress progress(s.quiet);
-    const std::string text = plan_again(s.dir, s.sets, s.threads, progress);
+    const std::string text = plan_again(s.dir, s.out, s.sets, s.threads, progress);
     if (!s.quiet) fmt::print("{}", text);
     return 0;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "engine/config/parameters.h"
 #include "engine/job/claim.h"
@@ -173,13 +174,17 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
            fmt::format("written to   {} in {:.1f} s\n", dir.path().string(), progress.wall_s());
 }
 
-std::string plan_again(const std::filesystem::path& path, const std::vector<std::string>& overrides,
-                       int thread_count, Progress& progress) {
+std::string plan_again(const std::filesystem::path& path, const std::filesystem::path& out,
+                       const std::vector<std::string>& overrides, int thread_count,
+                       Progress& progress) {
     Config any;
+    std::vector<std::string> kept;  // of what goes into the job file of a copy
     for (const std::string& s : overrides) {
         const std::string key = s.substr(0, s.find('='));
         for (const Parameter& p : parameters(any)) {
-            if (p.key() != key || p.section == "overlap" || p.section == "output") continue;
+            if (p.key() != key) continue;
+            if (p.section != "overlap") kept.push_back(s);
+            if (p.section == "overlap" || p.section == "output") continue;
             if (p.stale == Stale::plan) continue;
             throw UsageError(
                 fmt::format("--set {}: plan works from finished tables, and {} belongs to "
@@ -188,10 +193,24 @@ std::string plan_again(const std::filesystem::path& path, const std::vector<std:
         }
     }
     const Threads threads(thread_count);
-    const RunDir dir(path);
-    const Config config = dir.config(overrides);
-    check_overlap(dir.config(), config, path);
+    const RunDir from(path);
+    const Config config = from.config(overrides);
+    check_overlap(from.config(), config, path);
+    const RunDir dir(out.empty() ? path : out);
+    std::optional<FolderLock> source;
+    if (!out.empty()) {
+        if (!dir.holds_nothing()) {
+            throw UsageError(fmt::format(
+                "{}: holds files, and plan --out writes over none; choose another --out, or remove "
+                "the folder",
+                out.string()));
+        }
+        source.emplace(from, false);
+        std::error_code ignored;
+        std::filesystem::create_directories(out, ignored);
+    }
     const FolderLock lock(dir, true);
+    if (!out.empty()) dir.begin_copy(from, kept);
     add_pool(dir, config, threads, Ranks{Ranks::Alone{}}, progress);
     dir.remove_work();
     return plan_of(dir, config, threads, progress);

@@ -25,8 +25,9 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
                     Progress& progress);
 
 // plan DIR: plans again from the tables of a run directory. `overrides` may set what tables do not
-// depend on, and overlap.*; else UsageError.
-std::string plan_again(const std::filesystem::path& dir, const std::vector<std::string>& overrides,
-                       int threads, Progress& progress);
+// depend on, and overlap.*; else UsageError. With `out` the plan goes into that folder, with the
+// tables, and nothing of DIR changes; UsageError where it holds anything.
+std::string plan_again(const std::filesystem::path& dir, const std::filesystem::path& out,
+                       const std::vector<std::string>& overrides, int threads, Progress& progress);
 
 }  // namespace vfplan

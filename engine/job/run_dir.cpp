@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+
 #include "engine/config/parameters.h"
 #include "io/exports/outputs.h"
 #include "io/files.h"
 #include "io/formats/read_features.h"
 #include "io/sha256.h"
+#include "io/tables/coverage_file.h"
 #include "io/tables/field_file.h"
 #include "kernels/error.h"
 
@@ -50,6 +53,15 @@ std::string RunDir::stored_key() const {
     return text.substr(from, text.find('\n', from) - from);
 }
 
+bool RunDir::holds_nothing() const {
+    const auto begun = [](const std::filesystem::directory_entry& e) {  // and killed at once
+        return e.path().filename() == "job.toml.tmp" || e.path().filename() == lock_name;
+    };
+    std::error_code error;
+    const std::filesystem::directory_iterator entries(path_, error);
+    return std::all_of(begin(entries), end(entries), begun);
+}
+
 void RunDir::check(const JobKeys& keys, bool fresh) const {
     std::error_code error;
     if (!std::filesystem::exists(path_, error)) return;
@@ -57,11 +69,7 @@ void RunDir::check(const JobKeys& keys, bool fresh) const {
         throw IoError(fmt::format("{}: is a file, and a run needs a folder; choose another --out",
                                   path_.string()));
     }
-    const auto begun = [](const std::filesystem::directory_entry& e) {  // and killed at once
-        return e.path().filename() == "job.toml.tmp" || e.path().filename() == lock_name;
-    };
-    const std::filesystem::directory_iterator entries(path_, error);
-    if (std::all_of(begin(entries), end(entries), begun)) return;
+    if (holds_nothing()) return;
     if (!std::filesystem::exists(file("job.toml"), error)) {
         throw UsageError(
             fmt::format("{}: holds files but no run of this program; choose another "
@@ -83,6 +91,41 @@ void RunDir::write_job(const Config& config, const JobKeys& keys) const {
     hash.add(text);
     write_text(file("job.toml"),
                fmt::format("{}{}\n{}{}\n{}", key_label, keys.job, text_label, hash.hex(), text));
+}
+
+void RunDir::begin_copy(const RunDir& from, const std::vector<std::string>& overrides) const {
+    std::error_code error;
+    std::filesystem::create_directories(path_ / "shards", error);
+    if (error) {
+        throw IoError(fmt::format("{}: cannot create: {}; check free space and permissions",
+                                  path_.string(), error.message()));
+    }
+    const std::string source = "provenance.json";
+    write_text(file(source), read_text(from.file(source)));
+    const Config config = from.config(overrides);
+    write_job(
+        config,
+        job_keys(
+            config,
+            nlohmann::json::parse(read_text(file(source))).at("input_sha256").get<std::string>()));
+    std::vector<std::filesystem::path> tables;
+    for (const auto& entry : std::filesystem::directory_iterator(from.file("shards"))) {
+        if (entry.path().extension() == ".h5") tables.push_back(entry.path());
+    }
+    for (const char* name : {"field.h5", "coverage.h5", pool_name}) {
+        if (std::filesystem::exists(from.file(name))) tables.push_back(from.file(name));
+    }
+    for (const std::filesystem::path& table : tables) {
+        const std::filesystem::path to = path_ / table.lexically_relative(from.path());
+        // Nobody writes into a file of ours that is there, so two names may share one.
+        std::filesystem::create_hard_link(table, to, error);
+        if (error) std::filesystem::copy_file(table, to, error);
+        if (!error) continue;
+        throw IoError(
+            fmt::format("{}: cannot be copied from {}: {}; check free space and "
+                        "permissions",
+                        to.string(), table.string(), error.message()));
+    }
 }
 
 void RunDir::remove_plan() const {

@@ -33,6 +33,13 @@ public:
     // hashes; reads only. `fresh`: another job's run may be replaced.
     void check(const JobKeys& keys, bool fresh) const;
 
+    // True where nothing lies in the folder, or it is not there.
+    bool holds_nothing() const;
+
+    // Makes another run's tables this folder's, by hard links where the file system has them, with
+    // a job.toml in which `overrides` count: of what tables do not depend on. Throws IoError.
+    void begin_copy(const RunDir& from, const std::vector<std::string>& overrides) const;
+
     // Writes job.toml. Throws IoError.
     void write_job(const Config& config, const JobKeys& keys) const;
 

@@ -17,7 +17,6 @@ enum class WeighUntil : std::uint8_t {
 // what columns gain by them beyond 1, bounds the stations of any cover. `stations`: of a plan that
 // is known. Follows from its arguments alone.
 std::vector<std::int64_t> weigh_rows(const Problem& problem, std::int64_t stations,
-                                     std::int64_t rounds,
-                                     WeighUntil until = WeighUntil::proven);
+                                     std::int64_t rounds, WeighUntil until = WeighUntil::proven);
 
 }  // namespace vfplan

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <set>
 
 #include "engine/tables/scenes.h"
@@ -110,6 +111,36 @@ TEST_F(Pool, NeedsNoMoreStationsAndIsMadeByPlanAsByRun) {
         EXPECT_NE(summary("axis")["result_sha256"], pool["result_sha256"]);
         for (const char* dir : {"pool", "axis"}) std::filesystem::remove_all(scratch / dir);
     }
+}
+
+TEST_F(Pool, PlanOutLeavesTheFolderAsItIsAndWritesOverNothing) {
+    run("flat", "flat", with(flat, "plan.candidates=axis"));
+    const auto bytes = [&] {
+        std::map<Path, std::string> out;
+        for (const auto& e : std::filesystem::recursive_directory_iterator(scratch / "flat")) {
+            if (e.is_regular_file()) out[e.path()] = read_bytes(e.path());
+        }
+        return out;
+    };
+    const auto before = bytes();
+    const Words again = {"plan",   scratch / "flat",   "--out", scratch / "two",
+                         "--set",  "plan.loops=false", "--set", "plan.candidates=pool",
+                         "--quiet"};
+    vfplan_expect(0, again);
+    EXPECT_TRUE(bytes() == before);
+    vfplan_expect(0, {"verify", scratch / "two"});
+    const Json whole = run("flat", "whole", with(flat, "plan.loops=false"));
+    EXPECT_EQ(summary("two")["result_sha256"], whole["result_sha256"]);
+    // Complete by itself, and the same job as one that was run.
+    std::filesystem::remove_all(scratch / "flat");
+    EXPECT_EQ(run("flat", "two", with(flat, "plan.loops=false"))["result_sha256"],
+              whole["result_sha256"]);
+    vfplan_expect(0, {"plan", scratch / "two", "--quiet"});
+    EXPECT_EQ(summary("two")["result_sha256"], whole["result_sha256"]);
+    const Output refused = vfplan_process({"plan", scratch / "whole", "--out", scratch / "two"});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("writes over none"), std::string::npos) << refused.err;
+    EXPECT_EQ(vfplan_process({"plan", scratch / "two", "--out", scratch / "two"}).code, 2);
 }
 
 // A room with ten slits, as deep as two pieces, that all aim at one point off the ridges: nowhere
