@@ -108,7 +108,8 @@ Json summary_of_plan(const Planned& p, const CoverageTables& t) {
     if (p.loops) count("loops", static_cast<std::int64_t>(p.plan.stations.size()));
     j["plan"] = {{"stations_greedy", p.report.greedy_stations},
                  {"off_cycle_connected", p.report.off_cycle_before},
-                 {"off_cycle", p.report.off_cycle_after}};
+                 {"off_cycle", p.report.off_cycle_after},
+                 {"too_near", p.report.too_near}};
     j["histograms"] = {{"stations_per_piece", m.multiplicity},
                        {"range_by_tenth_of_max", m.range_tenths},
                        {"incidence_by_10_deg", m.incidence_tens}};

@@ -59,6 +59,21 @@ std::int64_t stations_off_cycle(const PlanInput& in, const std::vector<Network>&
     return std::count(cuts.on_cycle.begin(), cuts.on_cycle.end(), 0);
 }
 
+std::int64_t stations_too_near(const PlanInput& in, const Plan& plan, double spacing_m) {
+    std::vector<Vec2d> at;
+    for (const Station& s : plan.stations) at.push_back(in.candidates[idx(s.candidate)].at);
+    std::sort(at.begin(), at.end(), [](const Vec2d& a, const Vec2d& b) {
+        return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
+    });
+    std::vector<std::uint8_t> near(at.size(), 0);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        for (std::size_t k = i + 1; k < at.size() && at[k].x() - at[i].x() < spacing_m; ++k) {
+            if ((at[k] - at[i]).norm() < spacing_m) near[i] = near[k] = 1;
+        }
+    }
+    return std::count(near.begin(), near.end(), 1);
+}
+
 // `searched`: not in the order of choice.
 void add_stations(const PlanInput& in, const std::vector<Network>& networks, bool searched,
                   Workspace& work, Plan& plan) {
@@ -158,6 +173,7 @@ Plan make_plan(const Threads& threads, const PlanInput& in, const PlanOptions& o
     report.off_cycle_after = stations_off_cycle(in, networks, &Network::chosen);
     add_stations(in, networks, options.method != PlanMethod::greedy, work, plan);
     add_links(in, plan);
+    report.too_near = stations_too_near(in, plan, options.min_spacing_m);
     return plan;
 }
 

@@ -16,6 +16,7 @@ struct PlanReport {
     std::int64_t connected = 0;         // the fewest found before loops count
     std::int64_t off_cycle_before = 0;  // stations on no cycle in that plan,
     std::int64_t off_cycle_after = 0;   // and in the plan that is given
+    std::int64_t too_near = 0;          // stations nearer to another one than min_spacing_m
 };
 
 // One network for each component of the graph that has something to add, that of the component

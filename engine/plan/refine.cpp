@@ -4,6 +4,7 @@
 #include "engine/plan/certify.h"
 #include "engine/search/reduce.h"
 #include "engine/search/search.h"
+#include "engine/search/settle.h"
 
 namespace vfplan {
 namespace {
@@ -17,6 +18,34 @@ Choice searched(const Threads& threads, const Problem& whole, Reduce what, const
         out.push_back(reduced.column[idx(c)]);
     }
     return out;
+}
+
+// Larger plans stay where they were searched.
+constexpr std::size_t settled_most = 2000;
+constexpr double too_near = 100;  // of overlaps, each of which is 1 at most
+
+// Stations with more overlap make more and shorter ways through the network, and those that stand
+// by each other are no use to a surveyor.
+Choice settled(const PlanInput& in, const PlanOptions& options, const Problem& problem,
+               const std::vector<std::int32_t>& members, const Choice& plan) {
+    if (plan.size() > settled_most) return plan;
+    const double spacing_m = options.min_spacing_m;
+    return settle(problem, plan, [&](std::int32_t c, const Choosing& chosen, std::int32_t without) {
+        double score = 0;
+        std::size_t k = 0;
+        const auto near = problem.near.of(c);
+        in.graph.each(members[idx(c)], [&](std::int32_t, double overlap) {
+            const std::int32_t n = near[k++];
+            if (n != without && chosen.is_chosen(n)) score += overlap;
+        });
+        if (spacing_m <= 0) return score;
+        const Vec2d& at = in.candidates[idx(members[idx(c)])].at;
+        for (const std::int32_t n : chosen.chosen()) {
+            if (n == without || n == c) continue;
+            if ((in.candidates[idx(members[idx(n)])].at - at).norm() < spacing_m) score -= too_near;
+        }
+        return score;
+    });
 }
 
 }  // namespace
@@ -45,8 +74,12 @@ Certificate refine(const Threads& threads, const PlanInput& in, const PlanOption
                     problem.block = find_cuts(induced(in.graph, network.members)).block;
                     problem.loose.assign(idx(problem.columns()), 1);
                     plan = searched(threads, problem, Reduce::rows, start, search);
+                    plan = settled(in, options, problem, network.members, plan);
                 } else {
                     plan = searched(threads, problem, Reduce::rows_and_columns, start, search);
+                    if (!options.loops) {
+                        plan = settled(in, options, problem, network.members, plan);
+                    }
                     proofs.networks[idx(n)] = fast_proof(problem, problems, network, plan);
                 }
             }
