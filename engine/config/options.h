@@ -79,7 +79,7 @@ struct PlanOptions {
     std::int64_t effort = 20;          // steps of search for each station of the greedy plan
     std::int64_t proof_effort = 8000;  // as prove() has it
     CandidatePool candidates = CandidatePool::axis;
-    double min_spacing_m = 0;  // stations stand farther apart where that costs none
+    double min_spacing_m = 0;  // stations stand farther apart where that costs little
 };
 PlanOptions plan_options(const Config& config);
 

@@ -1,5 +1,8 @@
 #include "engine/plan/refine.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "engine/graphs/cuts.h"
 #include "engine/plan/certify.h"
 #include "engine/search/reduce.h"
@@ -20,16 +23,44 @@ Choice searched(const Threads& threads, const Problem& whole, Reduce what, const
     return out;
 }
 
+// Of each member those that stand nearer to it than the spacing.
+Sparse members_beside(const PlanInput& in, const std::vector<std::int32_t>& members,
+                      double spacing_m) {
+    std::vector<std::pair<double, std::int32_t>> by_x;
+    const auto at = [&](std::int32_t c) { return in.candidates[idx(members[idx(c)])].at; };
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        const auto c = static_cast<std::int32_t>(i);
+        by_x.emplace_back(at(c).x(), c);
+    }
+    std::sort(by_x.begin(), by_x.end());
+    std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+    for (std::size_t i = 0; i < by_x.size(); ++i) {
+        for (std::size_t k = i + 1; k < by_x.size() && by_x[k].first - by_x[i].first < spacing_m;
+             ++k) {
+            if ((at(by_x[i].second) - at(by_x[k].second)).norm() >= spacing_m) continue;
+            pairs.emplace_back(by_x[i].second, by_x[k].second);
+            pairs.emplace_back(by_x[k].second, by_x[i].second);
+        }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    Sparse out;
+    auto pair = pairs.begin();
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        for (; pair != pairs.end() && idx(pair->first) == i; ++pair) out.to.push_back(pair->second);
+        out.end_list();
+    }
+    return out;
+}
+
 // Larger plans stay where they were searched.
 constexpr std::size_t settled_most = 2000;
 constexpr double too_near = 100;  // of overlaps, each of which is 1 at most
 
 // Stations with more overlap make more and shorter ways through the network, and those that stand
 // by each other are no use to a surveyor.
-Choice settled(const PlanInput& in, const PlanOptions& options, const Problem& problem,
+Choice settled(const PlanInput& in, const Problem& problem,
                const std::vector<std::int32_t>& members, const Choice& plan) {
     if (plan.size() > settled_most) return plan;
-    const double spacing_m = options.min_spacing_m;
     return settle(problem, plan, [&](std::int32_t c, const Choosing& chosen, std::int32_t without) {
         double score = 0;
         std::size_t k = 0;
@@ -38,11 +69,9 @@ Choice settled(const PlanInput& in, const PlanOptions& options, const Problem& p
             const std::int32_t n = near[k++];
             if (n != without && chosen.is_chosen(n)) score += overlap;
         });
-        if (spacing_m <= 0) return score;
-        const Vec2d& at = in.candidates[idx(members[idx(c)])].at;
-        for (const std::int32_t n : chosen.chosen()) {
-            if (n == without || n == c) continue;
-            if ((in.candidates[idx(members[idx(n)])].at - at).norm() < spacing_m) score -= too_near;
+        if (problem.beside.size() == 0) return score;
+        for (const std::int32_t n : problem.beside.of(c)) {
+            if (n != without && chosen.is_chosen(n)) score -= too_near;
         }
         return score;
     });
@@ -67,6 +96,9 @@ Certificate refine(const Threads& threads, const PlanInput& in, const PlanOption
                 const Network& network = networks[idx(n)];
                 Problem problem =
                     problems.of(network.members, owner, static_cast<std::int32_t>(n), fixed);
+                if (options.min_spacing_m > 0) {
+                    problem.beside = members_beside(in, network.members, options.min_spacing_m);
+                }
                 const Choice start = columns_of(network.members, network.chosen);
                 const SearchOptions search{options.effort, static_cast<std::uint64_t>(n)};
                 Choice& plan = found[idx(task)];
@@ -74,11 +106,11 @@ Certificate refine(const Threads& threads, const PlanInput& in, const PlanOption
                     problem.block = find_cuts(induced(in.graph, network.members)).block;
                     problem.loose.assign(idx(problem.columns()), 1);
                     plan = searched(threads, problem, Reduce::rows, start, search);
-                    plan = settled(in, options, problem, network.members, plan);
+                    plan = settled(in, problem, network.members, plan);
                 } else {
                     plan = searched(threads, problem, Reduce::rows_and_columns, start, search);
                     if (!options.loops) {
-                        plan = settled(in, options, problem, network.members, plan);
+                        plan = settled(in, problem, network.members, plan);
                     }
                     proofs.networks[idx(n)] = fast_proof(problem, problems, network, plan);
                 }

@@ -13,8 +13,15 @@ Choosing::Choosing(const Problem& problem)
       alone_(idx(p_.columns()), 0),
       links_(idx(p_.columns())) {}
 
+std::int64_t Choosing::chosen_beside(std::int32_t column) const {
+    if (p_.beside.size() == 0) return 0;
+    const auto list = p_.beside.of(column);
+    return std::count_if(list.begin(), list.end(), [&](std::int32_t n) { return is_chosen(n); });
+}
+
 void Choosing::put(std::int32_t column) {
     assert(!is_chosen(column));
+    pairs_beside_ += chosen_beside(column);
     place_[idx(column)] = static_cast<std::int32_t>(chosen_.size());
     chosen_.push_back(column);
     for (const std::int32_t r : p_.rows_of.of(column)) {
@@ -31,6 +38,7 @@ void Choosing::put(std::int32_t column) {
 
 void Choosing::take(std::int32_t column) {
     assert(is_chosen(column));
+    pairs_beside_ -= chosen_beside(column);
     const std::int32_t last = chosen_.back();
     chosen_[idx(place_[idx(column)])] = last;
     place_[idx(last)] = place_[idx(column)];

@@ -38,6 +38,8 @@ public:
     const std::vector<std::int32_t>& links(std::int32_t column) const {
         return links_[idx(column)];
     }
+    // Pairs of chosen columns that stand too near by each other.
+    std::int64_t pairs_beside() const { return pairs_beside_; }
     // Rows that lost their only cover since this was last emptied; some may be covered again.
     std::vector<std::int32_t>& bared() { return bared_; }
     // Chosen columns that were not alone with any row any more; some may be again, or gone.
@@ -46,6 +48,7 @@ public:
 private:
     void put(std::int32_t column);
     void take(std::int32_t column);
+    std::int64_t chosen_beside(std::int32_t column) const;
 
     const Problem& p_;
     std::vector<std::int32_t> chosen_;
@@ -54,6 +57,7 @@ private:
     std::vector<std::int32_t> owner_;  // by row: its chosen columns, exclusive or of all
     std::vector<std::int32_t> alone_;
     std::vector<std::vector<std::int32_t>> links_;
+    std::int64_t pairs_beside_ = 0;
     std::vector<std::int32_t> bared_;
     std::vector<std::int32_t> spared_;
     std::vector<std::int32_t> changes_;

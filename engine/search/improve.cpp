@@ -80,7 +80,7 @@ private:
 
     std::int64_t cost() const {
         const auto size = static_cast<std::int64_t>(c_.chosen().size());
-        return size * one + loose_ * loose_cost;
+        return size * one + loose_ * loose_cost + c_.pairs_beside() * beside_cost;
     }
 
     // Returns whether the choice is another one now.
@@ -245,6 +245,7 @@ private:
     static constexpr std::int32_t most_dropped = 15;
     static constexpr std::int32_t asked_in = 4;
     static constexpr double worth = 2;  // stations, of one that is not loose any more
+    static constexpr std::int64_t beside_cost = one / 2;
     static constexpr auto loose_cost = static_cast<std::int64_t>(worth) * one;
 
     const Problem& p_;

@@ -24,6 +24,8 @@ struct Problem {
     // Likewise: 1 where some link of the column could be on a cycle whatever else is chosen. May be
     // empty: none.
     std::vector<std::uint8_t> closable;
+    // By column those that stand too near by; may be empty: none do.
+    Sparse beside;
 
     std::int32_t columns() const { return rows_of.size(); }
     std::int32_t rows() const { return columns_of.size(); }

@@ -102,6 +102,7 @@ public:
             append(p_.rows_of.of(c), row, q.rows_of);
             append(p_.near.of(c), column, q.near);
             q.fixed.push_back(p_.fixed[idx(c)]);
+            if (p_.beside.size() > 0) append(p_.beside.of(c), column, q.beside);
             if (p_.loose.empty()) continue;
             q.loose.push_back(p_.loose[idx(c)]);
             q.block.push_back(p_.block[idx(c)]);

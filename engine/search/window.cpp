@@ -111,6 +111,12 @@ Window make_window(const Problem& p, const Choosing& plan,
             to_node[idx(nodes[k])].push_back(i);
         }
         q.near.end_list();
+        if (p.beside.size() > 0) {
+            for (const std::int32_t n : p.beside.of(c)) {
+                if (number[idx(n)] >= 0) q.beside.to.push_back(number[idx(n)]);
+            }
+            q.beside.end_list();
+        }
         q.fixed.push_back(p.fixed[idx(c)]);
         if (!cycles) continue;
         q.block.push_back(p.block[idx(c)]);
@@ -122,6 +128,7 @@ Window make_window(const Problem& p, const Choosing& plan,
         q.near.to.insert(q.near.to.end(), list.begin(), list.end());
         q.near.end_list();
         q.rows_of.end_list();
+        if (p.beside.size() > 0) q.beside.end_list();
         q.fixed.push_back(1);
     }
     q.block.insert(q.block.end(), still.block.begin(), still.block.end());

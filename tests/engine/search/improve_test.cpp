@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/search/choosing.h"
 #include "tests/engine/search/small_problems.h"
 
 namespace vfplan {
@@ -69,6 +70,52 @@ TEST(Improve, IsNeverWorseThanItsStartAndAlwaysTheSame) {
             EXPECT_TRUE(less.empty() || !is_plan(p, less));
         }
     }
+}
+
+// Stations that stand too near by each other are counted through all changes, and cost half a one.
+TEST(Improve, KeepsStationsApartWhereThatCostsLittle) {
+    int fewer = 0;
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        SCOPED_TRACE(seed);
+        Problem p = random_problem(seed, 5 + static_cast<std::int32_t>(seed % 9), 12, false);
+        const auto pairs = [&](const Choice& c) {
+            std::int64_t out = 0;
+            for (std::size_t i = 0; i < c.size(); ++i) {
+                for (std::size_t k = i + 1; k < c.size(); ++k) {
+                    out += (c[i] + c[k]) % 3 == 0 ? 1 : 0;
+                }
+            }
+            return out;
+        };
+        const Choice careless = improve(p, everything(p), {400, seed});
+        for (std::int32_t a = 0; a < p.columns(); ++a) {
+            for (std::int32_t b = 0; b < p.columns(); ++b) {
+                if (a != b && (a + b) % 3 == 0) p.beside.to.push_back(b);
+            }
+            p.beside.end_list();
+        }
+        Choosing choosing(p);
+        Choice chosen;
+        for (const std::int32_t c : everything(p)) {
+            choosing.add(c);
+            chosen.push_back(c);
+            ASSERT_EQ(choosing.pairs_beside(), pairs(chosen));
+        }
+        choosing.remove(chosen.front());
+        choosing.back_to(0);
+        ASSERT_EQ(choosing.pairs_beside(), 0);
+        double best = 1000;
+        every_plan(p, [&](const Choice& c) {
+            best =
+                std::min(best, static_cast<double>(c.size()) + 0.5 * static_cast<double>(pairs(c)));
+        });
+        const Choice found = improve(p, everything(p), {600, seed});
+        ASSERT_TRUE(is_plan(p, found));
+        ASSERT_EQ(static_cast<double>(found.size()) + 0.5 * static_cast<double>(pairs(found)),
+                  best);
+        fewer += pairs(found) < pairs(careless) ? 1 : 0;
+    }
+    EXPECT_GT(fewer, 20);
 }
 
 }  // namespace
