@@ -8,6 +8,8 @@
 #include <string_view>
 
 #include "engine/cli/submit.h"
+#include "engine/compare/compare.h"
+#include "engine/compare/sweep.h"
 #include "engine/config/parameters.h"
 #include "engine/generate/generate.h"
 #include "engine/job/inspect.h"
@@ -50,6 +52,8 @@ struct Shared {
     std::string dir;
     std::string out;
     std::vector<std::string> sets;
+    std::vector<std::string> dirs;
+    std::string csv;
     int threads = 0;
     bool quiet = false;
     bool fresh = false;
@@ -172,6 +176,31 @@ int verify(const Shared& s) {
     return r.good ? 0 : 1;
 }
 
+int compare_plans(const Shared& s) {
+    if (s.dirs.size() < 2) {
+        throw UsageError("compare sets plans side by side: name two run directories or more");
+    }
+    const Comparison c = compare({s.dirs.begin(), s.dirs.end()});
+    if (!s.csv.empty()) write_text(s.csv, csv_of(c));
+    if (!s.out.empty()) write_text(s.out, picture_of(c));
+    if (!s.quiet) fmt::print("{}", text_of(c, true));
+    return 0;
+}
+
+int sweep_job(const Shared& s, const Ranks& ranks) {
+    if (!is_job_file(s)) {
+        throw UsageError(fmt::format("{}: sweep takes a job file (.toml)", s.job));
+    }
+    std::filesystem::path out = s.out;
+    if (out.empty()) out = std::filesystem::path(s.job).stem().string() + ".sweep";
+    const Comparison c = sweep(s.job, s.sets, out, s.threads, ranks, s.quiet);
+    if (!s.quiet && ranks.leader()) {
+        fmt::print("{}table      {}\npicture    {}\n", text_of(c, false),
+                   (out / "sweep.csv").string(), (out / "sweep.png").string());
+    }
+    return 0;
+}
+
 int look_at_site(const Shared& s) {
     const std::filesystem::path picture =
         s.out.empty() ? std::filesystem::path(s.job).stem().string() + ".site.png" : s.out;
@@ -222,6 +251,21 @@ int dispatch(int argc, char** argv, const Ranks& ranks) {
         "verify", "Looks again from every station with the exact kernel; says yes or no");
     check->add_option("DIR", s.dir, "Run directory")->required();
     add_common(*check, s);
+    CLI::App* beside = app.add_subcommand("compare", "Plans side by side: one table, one picture");
+    beside->add_option("DIR", s.dirs, "Run directories, two or more")->required();
+    beside->add_option("--out", s.out, "Also a picture (PNG)");
+    beside->add_option("--csv", s.csv, "Also the table with every figure in full (CSV)");
+    beside->add_flag("-q,--quiet", s.quiet, "No table");
+    CLI::App* sweeping = app.add_subcommand(
+        "sweep", "Plans a job with several values of parameters, and compares the plans");
+    sweeping->add_option("JOB", s.job, "Job file (.toml)")->required();
+    sweeping->add_option("--out", s.out,
+                         "Folder for a run directory each, sweep.csv and sweep.png; default: the "
+                         "job file's name with .sweep");
+    add_sets(*sweeping, s,
+             "KEY=VALUE,VALUE,...; may be repeated: every combination, each in a folder of its "
+             "own. With one value it goes for all");
+    add_common(*sweeping, s);
     CLI::App* look = app.add_subcommand(
         "inspect", "Says what a site was read as: roles, units, walls, ground; and draws it");
     look->add_option("FILE", s.job, "Site file, or job file (.toml)")->required();
@@ -256,8 +300,10 @@ int dispatch(int argc, char** argv, const Ranks& ranks) {
     }
     if (run->parsed()) return run_or_precompute(s, true, ranks);
     if (precompute->parsed()) return run_or_precompute(s, false, ranks);
+    if (sweeping->parsed()) return sweep_job(s, ranks);
     if (!ranks.leader()) return 0;  // the other commands are for one process
     if (check->parsed()) return verify(s);
+    if (beside->parsed()) return compare_plans(s);
     if (look->parsed()) return look_at_site(s);
     if (make->parsed()) {
         for (const auto& [option, kind] : {std::pair("--rooms", "flat"), {"--size-km", "city"}}) {
