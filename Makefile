@@ -11,7 +11,7 @@ VFPLAN := build/$(PRESET)/vfplan
 
 SOURCES = $(shell find kernels io engine tests bench -name '*.cpp' -o -name '*.h' | LC_ALL=C sort)
 
-.PHONY: help setup build configure program run test golden random-sites random-networks bench-build bench bench-check bench-counts \
+.PHONY: help setup build configure program run test golden random-sites random-networks bench-build bench bench-check bench-counts plans \
         scaling area check-format format tidy clean
 
 help:  ## this list
@@ -70,6 +70,9 @@ scaling: bench-build  ## threads, crops, city windows: runs/scaling/summary.md, 
 
 area: program  ## windows of a city and a county: memory and time by stage (a quarter of an hour)
 	@bench/area.py --program $(VFPLAN)
+
+plans: program  ## Algorithm 1, refined and certified plans and bounds on every site (two hours)
+	@bench/plans.py --program $(VFPLAN)
 
 check-format:  ## fail when clang-format would change a source
 	@clang-format --dry-run -Werror $(SOURCES)
