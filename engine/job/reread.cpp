@@ -119,12 +119,13 @@ private:
                         said_m2, slack_m2));
     }
 
-    // Whether a place is solid; nothing where that depends on a few snaps.
-    std::optional<bool> solid(const Vec2d& p) const {
+    // Whether something holds at a place; nothing where that depends on a few snaps.
+    template <class Holds>
+    std::optional<bool> firmly(const Vec2d& p, Holds&& holds) const {
         const double d = 5 * options_.snap_m;
-        const bool here = drawn_->solid(p);
+        const bool here = holds(p);
         for (const Vec2d& by : {Vec2d(d, d), Vec2d(-d, d), Vec2d(d, -d), Vec2d(-d, -d)}) {
-            if (drawn_->solid(p + by) != here) return {};
+            if (holds(p + by) != here) return {};
         }
         return here;
     }
@@ -147,13 +148,17 @@ private:
                 const std::int64_t cell =
                     field_->grid().id(0, w.y_begin) + static_cast<std::int64_t>(i);
                 const Vec2d at = t_.origin + field_->grid().centre(cell);
-                const std::optional<bool> in = solid(at);
-                if (!in) continue;
+                const std::optional<bool> in =
+                    firmly(at, [&](const Vec2d& p) { return drawn_->solid(p); });
+                const std::optional<bool> outlined = firmly(at, [&](const Vec2d& p) {
+                    return !drawn_->has_outlines() || drawn_->outlined(p);
+                });
+                if (!in || !outlined) continue;
                 ++looked_at;
                 const bool free = !std::isnan(vf[i]);
                 bool good = !free || !*in;
                 if (all_is_ground_ && extent.contains(at)) good = free != *in;
-                if (drawn_->has_outlines()) good = good && (!free || drawn_->outlined(at));
+                good = good && (!free || *outlined);
                 if (good) continue;
                 ++wrong;
                 if (first.empty()) {

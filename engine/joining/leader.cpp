@@ -148,6 +148,8 @@ bool Leader::one_sees_all() const {
 
 const Leader::State& Leader::state(int round) {
     if (state_ && state_of_ == round) return *state_;
+    std::unique_ptr<State> before = std::move(state_);
+    if (state_of_ > round) before.reset();
     state_ = std::make_unique<State>();
     state_of_ = round;
     State& s = *state_;
@@ -160,7 +162,7 @@ const Leader::State& Leader::state(int round) {
     std::sort(s.cells.begin(), s.cells.end());
     s.cells.erase(std::unique(s.cells.begin(), s.cells.end()), s.cells.end());
     std::vector<double> length_m(idx(pieces_.size()), 0);
-    const OverlapRows of_cells = rows_of_cells(s.cells, length_m);
+    const OverlapRows of_cells = rows_of_cells(s.cells, length_m, std::move(before));
     OverlapRows& rows = s.local.rows;
     if (!s.cells.empty()) {
         std::vector<bool> wanted(idx(pieces_.size()), false);
@@ -181,19 +183,45 @@ const Leader::State& Leader::state(int round) {
     return s;
 }
 
-OverlapRows Leader::rows_of_cells(std::vector<std::int64_t>& cells,
-                                  std::vector<double>& length_m) const {
+OverlapRows Leader::rows_of_cells(std::vector<std::int64_t>& cells, std::vector<double>& length_m,
+                                  std::unique_ptr<const State> before) {
     constexpr std::size_t at_once = 4096;
+    if (!before) twins_.clear();
+    std::erase_if(
+        cells, [&](std::int64_t c) { return std::binary_search(twins_.begin(), twins_.end(), c); });
+    if (before) {
+        const auto& known_m = before->local.piece_length_m;
+        std::copy(known_m.begin(), known_m.end(), length_m.begin() + before->first_piece);
+    }
+    const auto known = [&](std::int64_t cell) {
+        if (!before) return nobody;
+        const auto at = std::lower_bound(before->cells.begin(), before->cells.end(), cell);
+        if (at == before->cells.end() || *at != cell) return nobody;
+        return static_cast<std::int32_t>(before->component.size() +
+                                         idx(at - before->cells.begin()));
+    };
     OverlapRows all;
     for (std::size_t from = 0; from < cells.size(); from += at_once) {
+        const std::size_t to = std::min(cells.size(), from + at_once);
         std::vector<Vec2d> eyes;
-        for (std::size_t i = from; i < std::min(cells.size(), from + at_once); ++i) {
-            eyes.push_back(job_.layout().grid.centre(cells[i]));
+        for (std::size_t i = from; i < to; ++i) {
+            if (known(cells[i]) < 0) eyes.push_back(job_.layout().grid.centre(cells[i]));
         }
-        for (const OverlapRow& row : job_.scenes.overlap_rows(job_.threads, eyes)) {
-            add_row(row.seen(), by_angle(), all, length_m);
+        const std::vector<OverlapRow> looked = job_.scenes.overlap_rows(job_.threads, eyes);
+        for (std::size_t i = from, k = 0; i < to; ++i) {
+            const std::int32_t row = known(cells[i]);
+            if (row < 0) {
+                add_row(looked[k++].seen(), by_angle(), all, length_m);
+            } else {
+                add_row(before->local.rows.seen(row, {}), by_angle(), all, {});
+                for (std::size_t e = all.piece.size() - before->local.rows.row(row).size();
+                     e < all.piece.size(); ++e) {
+                    all.piece[e] += before->first_piece;
+                }
+            }
         }
     }
+    before.reset();
     if (by_angle()) return all;
     std::vector<std::int32_t> order(cells.size());
     std::iota(order.begin(), order.end(), 0);
@@ -214,11 +242,15 @@ OverlapRows Leader::rows_of_cells(std::vector<std::int64_t>& cells,
     OverlapRows out;
     std::size_t count = 0;
     for (std::size_t c = 0; c < cells.size(); ++c) {
-        if (!kept[c]) continue;
+        if (!kept[c]) {
+            twins_.push_back(cells[c]);
+            continue;
+        }
         cells[count++] = cells[c];
         add_row(all.seen(static_cast<std::int32_t>(c), {}), false, out, {});
     }
     cells.resize(count);
+    std::sort(twins_.begin(), twins_.end());
     return out;
 }
 
