@@ -171,6 +171,7 @@ const Leader::State& Leader::state(int round) {
         for (const std::int32_t c : some.number) s.component.push_back(component_[idx(c)]);
         for (const OverlapRow& row : some.rows) add_row(row.seen(), by_angle(), rows, length_m);
     }
+    rows.piece.reserve(rows.piece.size() + of_cells.piece.size());
     for (std::int32_t c = 0; c < of_cells.size(); ++c)
         add_row(of_cells.seen(c, {}), by_angle(), rows, {});
     if (!rows.piece.empty()) {
@@ -239,19 +240,28 @@ OverlapRows Leader::rows_of_cells(std::vector<std::int64_t>& cells, std::vector<
     for (std::size_t i = 1; i < order.size(); ++i) {
         if (same(order[i - 1], order[i])) kept[idx(order[i])] = false;
     }
-    OverlapRows out;
+    // In place: these rows are the most that the leader holds.
     std::size_t count = 0;
+    std::int64_t begin = 0;
+    std::int64_t entries = 0;
     for (std::size_t c = 0; c < cells.size(); ++c) {
-        if (!kept[c]) {
+        const std::int64_t end = all.begin[c + 1];
+        if (kept[c]) {
+            std::copy(all.piece.begin() + begin, all.piece.begin() + end,
+                      all.piece.begin() + entries);
+            entries += end - begin;
+            cells[count++] = cells[c];
+            all.begin[count] = entries;
+        } else {
             twins_.push_back(cells[c]);
-            continue;
         }
-        cells[count++] = cells[c];
-        add_row(all.seen(static_cast<std::int32_t>(c), {}), false, out, {});
+        begin = end;
     }
+    all.piece.resize(idx(entries));
+    all.begin.resize(count + 1);
     cells.resize(count);
     std::sort(twins_.begin(), twins_.end());
-    return out;
+    return all;
 }
 
 std::vector<std::int32_t> Leader::seen_by_sets(const State& s) const {
