@@ -13,16 +13,17 @@
 namespace vfplan {
 namespace {
 
-// Appends a row; notes the lengths of its pieces where there is room for them.
-void add_row(const SeenRow& row, bool angles, OverlapRows& rows, std::span<double> length_m) {
-    rows.piece.insert(rows.piece.end(), row.piece.begin(), row.piece.end());
+// Appends a row, its pieces numbered from `first_piece`; notes their lengths where there is room.
+void add_row(const SeenRow& row, bool angles, OverlapRows& rows, std::span<double> length_m,
+             std::int32_t first_piece = 0) {
+    for (const std::int32_t piece : row.piece) rows.piece.push_back(piece + first_piece);
     if (angles) {
         rows.angle_rad.insert(rows.angle_rad.end(), row.angle_rad.begin(), row.angle_rad.end());
     }
     rows.begin.push_back(static_cast<std::int64_t>(rows.piece.size()));
     if (length_m.empty()) return;
     for (std::size_t i = 0; i < row.piece.size(); ++i) {
-        length_m[idx(row.piece[i])] = row.length_of(i);
+        length_m[idx(row.piece[i] + first_piece)] = row.length_of(i);
     }
 }
 
@@ -162,7 +163,7 @@ const Leader::State& Leader::state(int round) {
     std::sort(s.cells.begin(), s.cells.end());
     s.cells.erase(std::unique(s.cells.begin(), s.cells.end()), s.cells.end());
     std::vector<double> length_m(idx(pieces_.size()), 0);
-    const OverlapRows of_cells = rows_of_cells(s.cells, length_m, std::move(before));
+    const OverlapRows of_cells = rows_of_cells(s, length_m, std::move(before));
     OverlapRows& rows = s.local.rows;
     if (!s.cells.empty()) {
         std::vector<bool> wanted(idx(pieces_.size()), false);
@@ -171,7 +172,6 @@ const Leader::State& Leader::state(int round) {
         for (const std::int32_t c : some.number) s.component.push_back(component_[idx(c)]);
         for (const OverlapRow& row : some.rows) add_row(row.seen(), by_angle(), rows, length_m);
     }
-    rows.piece.reserve(rows.piece.size() + of_cells.piece.size());
     for (std::int32_t c = 0; c < of_cells.size(); ++c)
         add_row(of_cells.seen(c, {}), by_angle(), rows, {});
     if (!rows.piece.empty()) {
@@ -184,15 +184,15 @@ const Leader::State& Leader::state(int round) {
     return s;
 }
 
-OverlapRows Leader::rows_of_cells(std::vector<std::int64_t>& cells, std::vector<double>& length_m,
-                                  std::unique_ptr<const State> before) {
+OverlapRows Leader::rows_of_cells(State& s, std::vector<double>& length_m,
+                                  std::unique_ptr<const State> before) const {
     constexpr std::size_t at_once = 4096;
-    if (!before) twins_.clear();
-    std::erase_if(
-        cells, [&](std::int64_t c) { return std::binary_search(twins_.begin(), twins_.end(), c); });
+    std::vector<std::int64_t>& cells = s.cells;
     if (before) {
-        const auto& known_m = before->local.piece_length_m;
-        std::copy(known_m.begin(), known_m.end(), length_m.begin() + before->first_piece);
+        s.twins = before->twins;
+        std::erase_if(cells, [&](std::int64_t c) {
+            return std::binary_search(s.twins.begin(), s.twins.end(), c);
+        });
     }
     const auto known = [&](std::int64_t cell) {
         if (!before) return nobody;
@@ -214,11 +214,8 @@ OverlapRows Leader::rows_of_cells(std::vector<std::int64_t>& cells, std::vector<
             if (row < 0) {
                 add_row(looked[k++].seen(), by_angle(), all, length_m);
             } else {
-                add_row(before->local.rows.seen(row, {}), by_angle(), all, {});
-                for (std::size_t e = all.piece.size() - before->local.rows.row(row).size();
-                     e < all.piece.size(); ++e) {
-                    all.piece[e] += before->first_piece;
-                }
+                add_row(before->local.rows.seen(row, before->local.piece_length_m), by_angle(), all,
+                        length_m, before->first_piece);
             }
         }
     }
@@ -240,28 +237,19 @@ OverlapRows Leader::rows_of_cells(std::vector<std::int64_t>& cells, std::vector<
     for (std::size_t i = 1; i < order.size(); ++i) {
         if (same(order[i - 1], order[i])) kept[idx(order[i])] = false;
     }
-    // In place: these rows are the most that the leader holds.
+    OverlapRows out;
     std::size_t count = 0;
-    std::int64_t begin = 0;
-    std::int64_t entries = 0;
     for (std::size_t c = 0; c < cells.size(); ++c) {
-        const std::int64_t end = all.begin[c + 1];
-        if (kept[c]) {
-            std::copy(all.piece.begin() + begin, all.piece.begin() + end,
-                      all.piece.begin() + entries);
-            entries += end - begin;
-            cells[count++] = cells[c];
-            all.begin[count] = entries;
-        } else {
-            twins_.push_back(cells[c]);
+        if (!kept[c]) {
+            s.twins.push_back(cells[c]);
+            continue;
         }
-        begin = end;
+        cells[count++] = cells[c];
+        add_row(all.seen(static_cast<std::int32_t>(c), {}), false, out, {});
     }
-    all.piece.resize(idx(entries));
-    all.begin.resize(count + 1);
     cells.resize(count);
-    std::sort(twins_.begin(), twins_.end());
-    return all;
+    std::sort(s.twins.begin(), s.twins.end());
+    return out;
 }
 
 std::vector<std::int32_t> Leader::seen_by_sets(const State& s) const {

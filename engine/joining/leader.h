@@ -41,6 +41,7 @@ private:
     // What follows from the cells that are known to be disputed.
     struct State {
         std::vector<std::int64_t> cells;
+        std::vector<std::int64_t> twins;      // left out for their equals, ascending
         std::vector<std::int32_t> component;  // of the candidates whose rows come first
         LocalRows local;
         std::int32_t first_piece = 0;  // of the site, is 0 in the local rows
@@ -57,11 +58,11 @@ private:
     // With the cells of all rounds before.
     const State& state(int round);
     bool by_angle() const { return formula(rule_.ratio).by_angle; }
-    // In the site's numbering, without angles where overlap goes by length; of cells with equal
-    // rows the first stays then. Notes the lengths of pieces.
-    // `before`: of fewer rounds, or none; what is known there is not looked at again.
-    OverlapRows rows_of_cells(std::vector<std::int64_t>& cells, std::vector<double>& length_m,
-                              std::unique_ptr<const State> before);
+    // Of the state's cells, in the site's numbering, without angles where overlap goes by length;
+    // of cells with equal rows the first stays then. Notes the lengths of pieces. `before`: of
+    // fewer rounds, or none; what is known there is not looked at again.
+    OverlapRows rows_of_cells(State& s, std::vector<double>& length_m,
+                              std::unique_ptr<const State> before) const;
     // For each piece the set that sees it, or several or nobody.
     std::vector<std::int32_t> seen_by_sets(const State& s) const;
     // For each space the set that sees most of its pieces; -1 where nothing is to be joined: nobody
@@ -83,7 +84,6 @@ private:
     std::vector<std::int32_t> space_;  // of each piece
     int state_of_ = -1;
     std::unique_ptr<State> state_;
-    std::vector<std::int64_t> twins_;  // cells left out for their equals, ascending
 };
 
 }  // namespace vfplan
