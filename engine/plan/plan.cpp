@@ -9,6 +9,7 @@
 #include "engine/plan/loops.h"
 #include "engine/plan/order.h"
 #include "engine/plan/refine.h"
+#include "engine/search/spacing.h"
 #include "kernels/index.h"
 
 namespace vfplan {
@@ -62,16 +63,10 @@ std::int64_t stations_off_cycle(const PlanInput& in, const std::vector<Network>&
 std::int64_t stations_too_near(const PlanInput& in, const Plan& plan, double spacing_m) {
     std::vector<Vec2d> at;
     for (const Station& s : plan.stations) at.push_back(in.candidates[idx(s.candidate)].at);
-    std::sort(at.begin(), at.end(), [](const Vec2d& a, const Vec2d& b) {
-        return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
-    });
-    std::vector<std::uint8_t> near(at.size(), 0);
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        for (std::size_t k = i + 1; k < at.size() && at[k].x() - at[i].x() < spacing_m; ++k) {
-            if ((at[k] - at[i]).norm() < spacing_m) near[i] = near[k] = 1;
-        }
-    }
-    return std::count(near.begin(), near.end(), 1);
+    const Sparse near = nearer_than(at, spacing_m);
+    std::int64_t count = 0;
+    for (std::int32_t i = 0; i < near.size(); ++i) count += near.of(i).empty() ? 0 : 1;
+    return count;
 }
 
 // `searched`: not in the order of choice.

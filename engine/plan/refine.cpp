@@ -1,13 +1,11 @@
 #include "engine/plan/refine.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "engine/graphs/cuts.h"
 #include "engine/plan/certify.h"
 #include "engine/search/reduce.h"
 #include "engine/search/search.h"
 #include "engine/search/settle.h"
+#include "engine/search/spacing.h"
 
 namespace vfplan {
 namespace {
@@ -19,35 +17,6 @@ Choice searched(const Threads& threads, const Problem& whole, Reduce what, const
     Choice out;
     for (const std::int32_t c : search(threads, reduced.problem, from, options)) {
         out.push_back(reduced.column[idx(c)]);
-    }
-    return out;
-}
-
-// Of each member those that stand nearer to it than the spacing.
-Sparse members_beside(const PlanInput& in, const std::vector<std::int32_t>& members,
-                      double spacing_m) {
-    std::vector<std::pair<double, std::int32_t>> by_x;
-    const auto at = [&](std::int32_t c) { return in.candidates[idx(members[idx(c)])].at; };
-    for (std::size_t i = 0; i < members.size(); ++i) {
-        const auto c = static_cast<std::int32_t>(i);
-        by_x.emplace_back(at(c).x(), c);
-    }
-    std::sort(by_x.begin(), by_x.end());
-    std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
-    for (std::size_t i = 0; i < by_x.size(); ++i) {
-        for (std::size_t k = i + 1; k < by_x.size() && by_x[k].first - by_x[i].first < spacing_m;
-             ++k) {
-            if ((at(by_x[i].second) - at(by_x[k].second)).norm() >= spacing_m) continue;
-            pairs.emplace_back(by_x[i].second, by_x[k].second);
-            pairs.emplace_back(by_x[k].second, by_x[i].second);
-        }
-    }
-    std::sort(pairs.begin(), pairs.end());
-    Sparse out;
-    auto pair = pairs.begin();
-    for (std::size_t i = 0; i < members.size(); ++i) {
-        for (; pair != pairs.end() && idx(pair->first) == i; ++pair) out.to.push_back(pair->second);
-        out.end_list();
     }
     return out;
 }
@@ -97,7 +66,11 @@ Certificate refine(const Threads& threads, const PlanInput& in, const PlanOption
                 Problem problem =
                     problems.of(network.members, owner, static_cast<std::int32_t>(n), fixed);
                 if (options.min_spacing_m > 0) {
-                    problem.beside = members_beside(in, network.members, options.min_spacing_m);
+                    std::vector<Vec2d> at;
+                    for (const std::int32_t c : network.members) {
+                        at.push_back(in.candidates[idx(c)].at);
+                    }
+                    problem.beside = nearer_than(at, options.min_spacing_m);
                 }
                 const Choice start = columns_of(network.members, network.chosen);
                 const SearchOptions search{options.effort, static_cast<std::uint64_t>(n)};

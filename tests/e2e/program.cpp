@@ -39,10 +39,19 @@ void shift(Json& coordinates, double dx, double dy) {
     for (Json& c : coordinates) shift(c, dx, dy);
 }
 
+// At commas outside of quotes; without a carriage return.
 std::vector<std::string> split(const std::string& line) {
-    std::vector<std::string> words;
-    std::istringstream in(line);
-    for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+    std::vector<std::string> words(1);
+    bool quoted = false;
+    for (const char c : line) {
+        if (c == '"') {
+            quoted = !quoted;
+        } else if (c == ',' && !quoted) {
+            words.emplace_back();
+        } else if (c != '\r') {
+            words.back() += c;
+        }
+    }
     return words;
 }
 

@@ -1,39 +1,10 @@
 // Plans side by side, through the built program.
 #include <fmt/format.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "program.h"
 
 namespace vfplan::test {
 namespace {
-
-std::vector<std::vector<std::string>> rows_of(const std::string& text) {
-    std::vector<std::vector<std::string>> rows;
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-        rows.emplace_back(1);
-        bool quoted = false;
-        for (const char c : line) {
-            if (c == '"') {
-                quoted = !quoted;
-            } else if (c == ',' && !quoted) {
-                rows.back().emplace_back();
-            } else if (c != '\r') {
-                rows.back().back() += c;
-            }
-        }
-    }
-    return rows;
-}
-
-std::string content(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream out;
-    out << in.rdbuf();
-    return out.str();
-}
 
 class Sweep : public ::testing::Test {
 protected:
@@ -44,7 +15,7 @@ protected:
     }
     // Each with its plan: the plan's stations.
     std::string stations(const std::string& dir) {
-        return content(scratch / (dir + "/stations.csv"));
+        return read_bytes(scratch / (dir + "/stations.csv"));
     }
     std::vector<std::string> with(const std::vector<std::string>& more) const {
         std::vector<std::string> all = sets;
@@ -63,13 +34,13 @@ protected:
 
 TEST_F(Sweep, PlansWhatRunPlansAndSetsItSideBySide) {
     const Output out = sweep({"overlap.threshold=0.3,0.5", "plan.method=greedy,refined"});
-    const auto rows = rows_of(content(scratch / "all/sweep.csv"));
-    ASSERT_EQ(rows.size(), 5U);
-    EXPECT_EQ(rows[0][0], "plan");
-    EXPECT_EQ(rows[0][1], "overlap.threshold");
-    EXPECT_EQ(rows[0][2], "plan.method");
-    EXPECT_EQ(rows[0][3], "stations");
-    std::size_t row = 1;
+    const auto [header, rows] = read_csv(scratch / "all/sweep.csv");
+    ASSERT_EQ(rows.size(), 4U);
+    EXPECT_EQ(header[0], "plan");
+    EXPECT_EQ(header[1], "overlap.threshold");
+    EXPECT_EQ(header[2], "plan.method");
+    EXPECT_EQ(header[3], "stations");
+    std::size_t row = 0;
     for (const std::string threshold : {"0.3", "0.5"}) {
         for (const std::string method : {"greedy", "refined"}) {
             const std::string name =
@@ -90,19 +61,19 @@ TEST_F(Sweep, PlansWhatRunPlansAndSetsItSideBySide) {
             ++row;
         }
     }
-    EXPECT_EQ(content(scratch / "all/sweep.png").substr(1, 3), "PNG");
+    EXPECT_EQ(read_bytes(scratch / "all/sweep.png").substr(1, 3), "PNG");
 }
 
 TEST_F(Sweep, GoesOnWhereItStopped) {
     sweep({"plan.loops=true,false"});
-    const std::string table = content(scratch / "all/plan.loops=false/stations.csv");
+    const std::string table = read_bytes(scratch / "all/plan.loops=false/stations.csv");
     ASSERT_GT(table.size(), 100U);
     std::filesystem::remove_all(scratch / "all/plan.loops=false");
     std::filesystem::remove(scratch / "all/plan.loops=true/summary.json");
     std::filesystem::remove(scratch / "all/sweep.csv");
     sweep({"plan.loops=true,false"});
-    EXPECT_EQ(content(scratch / "all/plan.loops=false/stations.csv"), table);
-    EXPECT_EQ(rows_of(content(scratch / "all/sweep.csv")).size(), 3U);
+    EXPECT_EQ(read_bytes(scratch / "all/plan.loops=false/stations.csv"), table);
+    EXPECT_EQ(read_csv(scratch / "all/sweep.csv").rows.size(), 2U);
 }
 
 TEST_F(Sweep, SaysAWrongValueBeforeItBegins) {
@@ -123,8 +94,8 @@ TEST_F(Sweep, CompareNamesWhatDiffersAndRefusesWhatHoldsNoPlan) {
                                          scratch / "c.csv", "--out", scratch / "c.png"});
     EXPECT_NE(out.out.find("plan.loops"), std::string::npos);
     EXPECT_EQ(out.out.find("overlap.threshold"), std::string::npos);
-    EXPECT_EQ(rows_of(content(scratch / "c.csv")).size(), 3U);
-    EXPECT_EQ(content(scratch / "c.png").substr(1, 3), "PNG");
+    EXPECT_EQ(read_csv(scratch / "c.csv").rows.size(), 2U);
+    EXPECT_EQ(read_bytes(scratch / "c.png").substr(1, 3), "PNG");
     std::filesystem::remove(scratch / "two/summary.json");
     const Output no = vfplan_expect(2, {"compare", scratch / "one", scratch / "two"});
     EXPECT_NE(no.err.find("holds no plan"), std::string::npos) << no.err;
