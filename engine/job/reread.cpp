@@ -148,17 +148,18 @@ private:
                 const std::int64_t cell =
                     field_->grid().id(0, w.y_begin) + static_cast<std::int64_t>(i);
                 const Vec2d at = t_.origin + field_->grid().centre(cell);
+                const bool free = !std::isnan(vf[i]);
                 const std::optional<bool> in =
                     firmly(at, [&](const Vec2d& p) { return drawn_->solid(p); });
-                const std::optional<bool> outlined = firmly(at, [&](const Vec2d& p) {
-                    return !drawn_->has_outlines() || drawn_->outlined(p);
-                });
+                const std::optional<bool> outlined =
+                    !free || !drawn_->has_outlines()
+                        ? true
+                        : firmly(at, [&](const Vec2d& p) { return drawn_->outlined(p); });
                 if (!in || !outlined) continue;
                 ++looked_at;
-                const bool free = !std::isnan(vf[i]);
                 bool good = !free || !*in;
                 if (all_is_ground_ && extent.contains(at)) good = free != *in;
-                good = good && (!free || *outlined);
+                good = good && *outlined;
                 if (good) continue;
                 ++wrong;
                 if (first.empty()) {
