@@ -74,7 +74,8 @@ def gallery(path):
             [f"site.input={path}", f"site.unit_m={100 / side!r}", "scanner.range_min_m=0",
              "scanner.range_max_m=1000", "field.cell_m=0.2", "field.threshold_rad=0",
              "coverage.partition_m=0.25", "coverage.visible_fraction=1",
-             "overlap.threshold=1e-6", "site.min_width_m=0", "plan.loops=false"])
+             "overlap.threshold=1e-6", "site.min_width_m=0", "site.clearance_m=0",
+             "plan.loops=false"])
 
 
 def call(words):

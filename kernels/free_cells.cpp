@@ -6,16 +6,6 @@
 namespace vfplan {
 namespace {
 
-// True when ab and cd have a point in common (touching counts).
-bool segments_meet(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
-    const double abc = orient(a, b, c);
-    const double abd = orient(a, b, d);
-    const double cda = orient(c, d, a);
-    const double cdb = orient(c, d, b);
-    if (abc == 0 && abd == 0) return false;  // along the wall: nothing is separated
-    return abc * abd <= 0 && cda * cdb <= 0;
-}
-
 std::int32_t cell_index(double metres, double cell_m, std::int32_t count) {
     const double i = std::floor(metres / cell_m);
     return static_cast<std::int32_t>(std::clamp(i, 0.0, static_cast<double>(count - 1)));
@@ -31,6 +21,15 @@ Grid make_grid(const Box& extent, double cell_m, double snap_m) {
     grid.nx = static_cast<std::int32_t>(std::ceil(cells.x() - 1e-9));
     grid.ny = static_cast<std::int32_t>(std::ceil(cells.y() - 1e-9));
     return grid;
+}
+
+bool segments_meet(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
+    const double abc = orient(a, b, c);
+    const double abd = orient(a, b, d);
+    const double cda = orient(c, d, a);
+    const double cdb = orient(c, d, b);
+    if (abc == 0 && abd == 0) return false;  // along the wall: nothing is separated
+    return abc * abd <= 0 && cda * cdb <= 0;
 }
 
 bool inside_odd(const std::vector<Border>& border, const Vec2d& p) {

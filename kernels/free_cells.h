@@ -14,6 +14,9 @@ namespace vfplan {
 // along an axis.
 Grid make_grid(const Box& extent, double cell_m, double snap_m);
 
+// True when ab and cd have a point in common (touching counts, lying in one line does not).
+bool segments_meet(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d);
+
 // True where a border of closed rings surrounds a point an odd number of times.
 bool inside_odd(const std::vector<Border>& border, const Vec2d& p);
 

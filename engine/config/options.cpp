@@ -64,8 +64,8 @@ TableOptions table_options(const Config& c) {
 }
 
 PlanOptions plan_options(const Config& c) {
-    return {c.plan.method,       c.plan.loops,      overlap_rule(c),     c.plan.effort,
-            c.plan.proof_effort, c.plan.candidates, c.plan.min_spacing_m};
+    return {c.plan.method,       c.plan.loops,      overlap_rule(c),      c.plan.effort,
+            c.plan.proof_effort, c.plan.candidates, c.plan.min_spacing_m, c.plan.shortcuts};
 }
 
 }  // namespace vfplan

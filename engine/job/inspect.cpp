@@ -6,6 +6,8 @@
 #include <array>
 
 #include "engine/runtime/parallel.h"
+#include "engine/tables/narrow.h"
+#include "engine/tables/site.h"
 #include "io/exports/site_png.h"
 #include "io/formats/read_features.h"
 #include "io/site/site_reader.h"
@@ -85,6 +87,17 @@ std::string openings_text(const std::vector<OpeningStep>& steps, double max_open
     return out;
 }
 
+// On cells that are fine enough for the clearance, if these are few enough for a look.
+std::string narrow_ground(const Config& config, const Site& site, const Threads& threads) {
+    constexpr double cells_most = 2e7;
+    GroundOptions ground = ground_options(config);
+    ground.cell_m = std::max(ground.cell_m, ground.clearance_m / 8);
+    const Vec2d cells = site.extent.size() / ground.cell_m;
+    if (cells.minCoeff() < 1 || cells.prod() > cells_most) return "";
+    const auto narrow = narrow_places(ground, site, layout_of(ground, site), threads);
+    return narrow.empty() ? "" : narrow_text(narrow, ground, site) + "\n";
+}
+
 }  // namespace
 
 BareSite bare_site(const std::filesystem::path& file, const std::vector<std::string>& sets) {
@@ -161,6 +174,7 @@ Inspection inspect(const Config& config, int thread_count, std::optional<Feature
     if (options.kind == SiteKind::indoor) {
         text += dropped_text(site) + openings_text(read.opening_steps, options.max_opening_m);
     }
+    text += narrow_ground(config, site, threads);
     for (const std::string& w : read.warnings) text += "warning    " + w + "\n";
     return {text, site_png(site)};
 }

@@ -105,10 +105,13 @@ Json summary_of_plan(const Planned& p, const CoverageTables& t) {
         j["gap_" + kind] = gap(stations, m.lower_bound);
     };
     count("connected", p.report.connected);
-    if (p.loops) count("loops", static_cast<std::int64_t>(p.plan.stations.size()));
+    if (p.loops) {
+        count("loops", static_cast<std::int64_t>(p.plan.stations.size()) - p.report.shortcuts);
+    }
     j["plan"] = {{"stations_greedy", p.report.greedy_stations},
                  {"off_cycle_connected", p.report.off_cycle_before},
                  {"off_cycle", p.report.off_cycle_after},
+                 {"shortcuts", p.report.shortcuts},
                  {"too_near", p.report.too_near}};
     j["histograms"] = {{"stations_per_piece", m.multiplicity},
                        {"range_by_tenth_of_max", m.range_tenths},

@@ -45,7 +45,7 @@ Trial try_part(const GroundOptions& ground, const TableOptions& options, const S
     Progress quiet(true);
     make_shard_folders(folder.path(), options.tile_cells);
     quiet.stage("site");
-    store_site(ground, key, part, threads, folder.path() / "work" / "site.h5", true);
+    store_site(ground, key, part, {}, threads, folder.path() / "work" / "site.h5", true);
 
     const SiteStore site(folder.path() / "work" / "site.h5", options.tile_cells);
     const int scenes_kept = 8 + 8 * threads.count();

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "engine/graphs/cuts.h"
+#include "engine/graphs/shortcuts.h"
 #include "engine/plan/certify.h"
 #include "engine/plan/greedy.h"
 #include "engine/plan/loops.h"
@@ -66,6 +67,33 @@ std::int64_t stations_too_near(const PlanInput& in, const Plan& plan, double spa
     const Sparse near = nearer_than(at, spacing_m);
     std::int64_t count = 0;
     for (std::int32_t i = 0; i < near.size(); ++i) count += near.of(i).empty() ? 0 : 1;
+    return count;
+}
+
+// Stations for shorter ways, in each network by itself; returns how many.
+std::int64_t add_shortcuts(const Threads& threads, const PlanInput& in, double share,
+                           std::vector<Network>& networks) {
+    if (share <= 0) return 0;
+    std::vector<Chosen> more(networks.size());
+    threads.for_each(static_cast<std::int64_t>(networks.size()), 1,
+                     [&](std::int64_t from, std::int64_t to) {
+                         for (std::int64_t n = from; n < to; ++n) {
+                             const Network& network = networks[idx(n)];
+                             const auto stations = static_cast<double>(network.chosen.size());
+                             for (const std::int32_t c :
+                                  shortcuts(induced(in.graph, network.members),
+                                            columns_of(network.members, network.chosen),
+                                            static_cast<std::int64_t>(share * stations))) {
+                                 more[idx(n)].push_back(network.members[idx(c)]);
+                             }
+                         }
+                     });
+    std::int64_t count = 0;
+    for (std::size_t n = 0; n < networks.size(); ++n) {
+        Chosen& chosen = networks[n].chosen;
+        chosen.insert(chosen.end(), more[n].begin(), more[n].end());
+        count += static_cast<std::int64_t>(more[n].size());
+    }
     return count;
 }
 
@@ -164,6 +192,7 @@ Plan make_plan(const Threads& threads, const PlanInput& in, const PlanOptions& o
     for (const Network& n : networks) {
         report.connected += static_cast<std::int64_t>(n.connected.size());
     }
+    report.shortcuts = add_shortcuts(threads, in, options.shortcuts, networks);
     report.off_cycle_before = stations_off_cycle(in, networks, &Network::connected);
     report.off_cycle_after = stations_off_cycle(in, networks, &Network::chosen);
     add_stations(in, networks, options.method != PlanMethod::greedy, work, plan);

@@ -14,6 +14,7 @@ namespace vfplan {
 struct PlanReport {
     std::int64_t greedy_stations = 0;   // Algorithm 1 alone
     std::int64_t connected = 0;         // the fewest found before loops count
+    std::int64_t shortcuts = 0;         // stations for shorter ways
     std::int64_t off_cycle_before = 0;  // stations on no cycle in that plan,
     std::int64_t off_cycle_after = 0;   // and in the plan that is given
     std::int64_t too_near = 0;          // stations nearer to another one than min_spacing_m

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/tables/narrow.h"
 #include "engine/tables/shards.h"
 #include "engine/tables/standable.h"
 #include "io/tables/site_store.h"
@@ -54,7 +55,18 @@ Json dropped_summary(const Site& site) {
     return list;
 }
 
-Json site_summary(const Site& site) {
+// Ground too narrow for the clearance, the largest places one by one.
+Json narrow_summary(const std::vector<NarrowPlace>& places, const Site& site) {
+    constexpr std::size_t most = 20;
+    Json list = Json::array();
+    for (std::size_t i = 0; i < std::min(most, places.size()); ++i) {
+        const Vec2d at = places[i].at + site.origin;
+        list.push_back({{"x", at.x()}, {"y", at.y()}, {"area_m2", places[i].area_m2}});
+    }
+    return list;
+}
+
+Json site_summary(const Site& site, const std::vector<NarrowPlace>& narrow) {
     double ground_m2 = 0;
     double faces_m = 0;
     for (const Dropped& d : site.dropped) {
@@ -69,6 +81,8 @@ Json site_summary(const Site& site) {
             {"ground_dropped_m2", ground_m2},
             {"faces_dropped_m", faces_m},
             {"dropped", dropped_summary(site)},
+            {"narrow_m2", area_m2(narrow)},
+            {"narrow", narrow_summary(narrow, site)},
             {"cleaning",
              {{"features", site.counts.features},
               {"ignored", site.counts.ignored},
@@ -163,7 +177,8 @@ void check_free_cells(const GroundOptions& o, std::int64_t free_cells) {
 }
 
 void store_site(const GroundOptions& o, const std::string& key, const Site& site,
-                const Threads& threads, const std::filesystem::path& path, bool may_be_none) {
+                const std::vector<NarrowPlace>& narrow, const Threads& threads,
+                const std::filesystem::path& path, bool may_be_none) {
     const Layout layout = layout_of(o, site);
     const auto bits = standable_bits(o, site, layout, threads);
     SiteFacts facts;
@@ -180,7 +195,7 @@ void store_site(const GroundOptions& o, const std::string& key, const Site& site
     facts.walls = static_cast<std::int64_t>(site.walls.size());
     facts.pieces = pieces.size();
     facts.extent = site.extent;
-    const Json summary = {{"site", site_summary(site)},
+    const Json summary = {{"site", site_summary(site, narrow)},
                           {"grid",
                            {{"cells", layout.grid.size()},
                             {"free_cells", facts.free_cells},
@@ -199,8 +214,11 @@ void make_site(const GroundOptions& options, const std::filesystem::path& dir,
     if (have_shard(file, key, progress)) return;
     {
         const Site site = read_ground(options, threads, progress);
-        may_begin(site, layout_of(options, site));
-        store_site(options, key, site, threads, file);
+        const Layout layout = layout_of(options, site);
+        may_begin(site, layout);
+        const std::vector<NarrowPlace> narrow = narrow_places(options, site, layout, threads);
+        if (!narrow.empty()) progress.note(narrow_text(narrow, options, site));
+        store_site(options, key, site, narrow, threads, file);
     }
     malloc_trim(0);  // of what reading took, nothing is needed any more
 }

@@ -9,6 +9,7 @@
 #include "engine/config/options.h"
 #include "engine/runtime/parallel.h"
 #include "engine/runtime/progress.h"
+#include "engine/tables/narrow.h"
 #include "io/site/site_reader.h"
 #include "kernels/layout.h"
 
@@ -33,10 +34,10 @@ Layout layout_of(const GroundOptions& options, const Site& site);
 // Throws UsageError when there is none.
 void check_free_cells(const GroundOptions& options, std::int64_t free_cells);
 
-// Writes the store of a site. Throws UsageError when no cell is free, unless there `may_be_none`;
-// IoError.
+// Writes the store of a site. `narrow`: for its summary. Throws UsageError when no cell is free,
+// unless there `may_be_none`; IoError.
 void store_site(const GroundOptions& options, const std::string& key, const Site& site,
-                const Threads& threads, const std::filesystem::path& path,
-                bool may_be_none = false);
+                const std::vector<NarrowPlace>& narrow, const Threads& threads,
+                const std::filesystem::path& path, bool may_be_none = false);
 
 }  // namespace vfplan

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "engine/tables/ground_band.h"
 #include "io/formats/read_features.h"
 #include "io/site/site_reader.h"
 #include "kernels/free_cells.h"
@@ -11,50 +12,6 @@
 
 namespace vfplan {
 namespace {
-
-// Pieces of a border that a band of rows may cross.
-std::vector<Border> pieces_in(const std::vector<Border>& border, double y_min, double y_max) {
-    std::vector<Border> out;
-    for (const Border& piece : border) {
-        if (std::min(piece.a.y(), piece.b.y()) > y_max) continue;
-        if (std::max(piece.a.y(), piece.b.y()) < y_min) continue;
-        out.push_back(piece);
-    }
-    return out;
-}
-
-// What decides about a band of rows.
-struct Band {
-    std::vector<Border> free;
-    std::vector<Border> forbidden;
-    std::vector<Wall> walls;
-
-    Band(const GroundOptions& o, const Site& site, const std::vector<Border>& kept_out,
-         const Grid& grid) {
-        const double y_min = grid.origin.y();
-        const double y_max = y_min + grid.cell_m * grid.ny;
-        free = pieces_in(site.free_border, y_min, y_max);
-        forbidden = pieces_in(kept_out, y_min, y_max);
-        const double reach = std::max(o.clearance_m, o.cell_m);
-        for (const Wall& w : site.walls) {
-            if (std::max(w.a.y(), w.b.y()) + reach < y_min) continue;
-            if (std::min(w.a.y(), w.b.y()) - reach > y_max) continue;
-            walls.push_back(w);
-        }
-    }
-};
-
-// 1 for the cells of a window of the band's rows where a station may stand.
-Raster<std::uint8_t> standable_cells(const GroundOptions& o, const Band& band, const Grid& grid) {
-    Raster<std::uint8_t> free = free_cells(grid, band.free);
-    const Raster<std::uint8_t> kept_out = free_cells(grid, band.forbidden);
-    const Raster<std::uint8_t> on_wall = cells_on_walls(grid, band.walls);
-    const Raster<std::uint8_t> too_near = cells_near_walls(grid, band.walls, o.clearance_m);
-    for (std::size_t i = 0; i < free.size(); ++i) {
-        if (kept_out[i] != 0 || on_wall[i] != 0 || too_near[i] != 0) free[i] = 0;
-    }
-    return free;
-}
 
 // Patches of a row that are worked on together: all, unless they have many cells.
 std::int64_t patches_at_once(const Layout& layout) {
@@ -87,7 +44,7 @@ std::vector<std::vector<std::uint8_t>> standable_bits(const GroundOptions& o, co
             const std::int64_t first = row * layout.patch_columns();
             Window window = layout.patch_window(first);
             window.x_end = layout.grid.nx;
-            const Band band(o, site, forbidden, part_of(layout.grid, window));
+            const GroundBand band(o, site, forbidden, part_of(layout.grid, window));
             const std::int64_t some = patches_at_once(layout);
             for (std::int64_t p = 0; p < layout.patch_columns(); p += some) {
                 const std::int64_t behind =
@@ -95,7 +52,7 @@ std::vector<std::vector<std::uint8_t>> standable_bits(const GroundOptions& o, co
                 window.x_begin = layout.patch_window(first + p).x_begin;
                 window.x_end = layout.patch_window(first + behind - 1).x_end;
                 const Grid grid = part_of(layout.grid, window);
-                const Raster<std::uint8_t> free = standable_cells(o, band, grid);
+                const Raster<std::uint8_t> free = ground_of(o, band, grid).standable;
                 for (std::int64_t q = first + p; q < first + behind; ++q) {
                     const Window w = layout.patch_window(q);
                     std::vector<std::uint8_t>& bits = out[idx(q)];
@@ -140,7 +97,7 @@ FreeCells count_free_cells(const GroundOptions& o, const Site& site, const Grid&
             const Window window{x, y, std::min(x + columns, grid.nx), std::min(y + rows, grid.ny)};
             const Grid part = part_of(grid, window);
             const Raster<std::uint8_t> cells =
-                standable_cells(o, Band(o, site, forbidden, part), part);
+                ground_of(o, GroundBand(o, site, forbidden, part), part).standable;
             free += std::count(cells.begin(), cells.end(), 1);
             looked_at += window.size();
         }

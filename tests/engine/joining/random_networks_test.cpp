@@ -54,7 +54,7 @@ public:
     Made(const Site& site, const Setting& s, int thread_count = 1)
         : threads_(thread_count), options_(s.tables) {
         std::filesystem::create_directories(dir_ / "work");
-        store_site(s.ground, key_, site, threads_, dir_ / "work" / "site.h5", true);
+        store_site(s.ground, key_, site, {}, threads_, dir_ / "work" / "site.h5", true);
         store_ = std::make_unique<SiteStore>(dir_ / "work" / "site.h5", s.tables.tile_cells);
         if (store_->facts().free_cells == 0) return;
         try {
