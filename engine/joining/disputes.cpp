@@ -272,14 +272,16 @@ std::vector<std::int64_t> looked_from(const TableJob& job, const DisputeRound& r
     return out;
 }
 
+std::int32_t margin_cells(const TableJob& job) { return 2 * Askers::reach_cells(job); }
+
 std::vector<std::int64_t> disputed_cells(const TableJob& job, const SiteStore& site,
                                          const FieldTiles& tiles, const DisputeRound& round,
                                          const std::vector<std::int64_t>& known,
-                                         const OverlapRule& rule, std::int64_t tile, bool first) {
+                                         const OverlapRule& rule, std::int64_t block, bool first) {
     const Grid& grid = job.layout().grid;
-    const Window core = job.layout().tile_window(tile);
-    // What sets a piece is seen from hangs on cells around the tile, too.
-    const Window around = first ? core.grown(2 * Askers::reach_cells(job), grid) : core;
+    const Window core = dispute_blocks(job).tile_window(block);
+    // What sets a piece is seen from hangs on cells around the block, too.
+    const Window around = first ? core.grown(margin_cells(job), grid) : core;
     const Askers askers(job, site, round, first, around);
     const auto alone = [](const Asked& a) { return a.role == PieceRole::largest; };
     if (std::all_of(askers.asked().begin(), askers.asked().end(), alone)) return {};
@@ -299,19 +301,26 @@ std::vector<std::int64_t> disputed_cells(const TableJob& job, const SiteStore& s
 
 }  // namespace
 
+Layout dispute_blocks(const TableJob& job) {
+    Layout out = job.layout();
+    constexpr std::int32_t step = 4;
+    out.tile_cells = std::max(out.tile_cells, (margin_cells(job) + step - 1) / step * step);
+    return out;
+}
+
 void make_disputed(const TableJob& job, const std::vector<ShardNames>& rounds,
                    const SiteStore& site, const FieldTiles& field, const DisputeRound& round,
                    const OverlapRule& rule) {
-    make_shards(job, rounds.back(), job.layout().tiles(),
-                [&](std::int64_t tile, const std::filesystem::path& path) {
+    make_shards(job, rounds.back(), dispute_blocks(job).tiles(),
+                [&](std::int64_t block, const std::filesystem::path& path) {
                     std::vector<std::int64_t> known;
                     for (std::size_t r = 0; r + 1 < rounds.size(); ++r) {
-                        const auto some = read_disputed_cells(rounds[r].one(tile));
+                        const auto some = read_disputed_cells(rounds[r].one(block));
                         known.insert(known.end(), some.begin(), some.end());
                     }
                     std::sort(known.begin(), known.end());
                     write_disputed_cells(path, job.key,
-                                         disputed_cells(job, site, field, round, known, rule, tile,
+                                         disputed_cells(job, site, field, round, known, rule, block,
                                                         rounds.size() == 1));
                 });
 }

@@ -1,4 +1,4 @@
-// The free cells that networks could be joined over (docs/method.md 6), tile by tile.
+// The free cells that networks could be joined over (docs/method.md 6), block by block.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,11 @@
 
 namespace vfplan {
 
-// Phase "disputed": work/.../disputed-ROUND-NUMBER.h5, the tile's free cells whose rows hold a
+// The grid in blocks. Around each, pieces and cells are looked at as far as two views reach; where
+// cells are small that is many tiles, and a block is as large.
+Layout dispute_blocks(const TableJob& job);
+
+// Phase "disputed": work/.../disputed-ROUND-NUMBER.h5, the block's free cells whose rows hold a
 // piece that several sets see or none, or pieces of two sets; of cells with equal rows the first,
 // where overlap goes by length. All other cells see pieces of one set only, and no other set sees
 // these: they join nothing.

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "engine/joining/disputes.h"
 #include "engine/joining/takers.h"
 #include "kernels/index.h"
 
@@ -155,8 +156,8 @@ const Leader::State& Leader::state(int round) {
     state_of_ = round;
     State& s = *state_;
     for (int r = 0; r < round; ++r) {
-        for (std::int64_t tile = 0; tile < job_.layout().tiles(); ++tile) {
-            const auto some = read_disputed_cells(shards_of_round(job_, r).one(tile));
+        for (std::int64_t block = 0; block < dispute_blocks(job_).tiles(); ++block) {
+            const auto some = read_disputed_cells(shards_of_round(job_, r).one(block));
             s.cells.insert(s.cells.end(), some.begin(), some.end());
         }
     }

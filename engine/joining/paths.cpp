@@ -12,7 +12,7 @@ namespace vfplan {
 namespace {
 
 // Of each two candidates the shortest path, of each two components the shortest few of these; by
-// components, then the shortest first. What is in the result of all tiles is in that of its own.
+// components, then the shortest first. What is in the result of all blocks is in that of its own.
 std::vector<ShortestPath> shortest_few(std::vector<ShortestPath> paths) {
     std::sort(paths.begin(), paths.end(), [](const ShortestPath& a, const ShortestPath& b) {
         return std::tuple(a.components(), a.order()) < std::tuple(b.components(), b.order());
@@ -33,16 +33,29 @@ std::vector<ShortestPath> shortest_few(std::vector<ShortestPath> paths) {
     return out;
 }
 
-// The paths that meet in a tile's cells.
-std::vector<ShortestPath> paths_of_tile(const TableJob& job, const FieldTiles& tiles,
-                                        const CandidateList& candidates,
-                                        const Components& components, std::int64_t tile) {
-    const Layout& layout = job.layout();
-    const Window core = layout.tile_window(tile);
-    const double reach_cells =
-        paths_reach_ranges * job.scenes.options().scanner.range_max_m / layout.grid.cell_m;
-    const auto margin = static_cast<std::int32_t>(std::ceil(reach_cells)) + 1;
-    const Window around = core.grown(margin, layout.grid);
+double reach_cells(const TableJob& job) {
+    return paths_reach_ranges * job.scenes.options().scanner.range_max_m / job.layout().grid.cell_m;
+}
+std::int32_t margin_cells(const TableJob& job) {
+    return static_cast<std::int32_t>(std::ceil(reach_cells(job))) + 1;
+}
+
+// The grid in blocks. Around each is looked as far as a path may reach: where cells are small, that
+// is many tiles, and a block takes half as many, or nearly all work would be done around them.
+Layout in_blocks(const TableJob& job) {
+    Layout out = job.layout();
+    constexpr std::int32_t step = 4;
+    out.tile_cells = std::max(out.tile_cells, (margin_cells(job) / 2 + step - 1) / step * step);
+    return out;
+}
+
+// The paths that meet in a block's cells.
+std::vector<ShortestPath> paths_of_block(const TableJob& job, const FieldTiles& tiles,
+                                         const CandidateList& candidates,
+                                         const Components& components, std::int64_t block) {
+    const Layout layout = in_blocks(job);
+    const Window core = layout.tile_window(block);
+    const Window around = core.grown(margin_cells(job), layout.grid);
     const CandidateList::Part list = candidates.in(around);
     const std::vector<std::int32_t> component = components.of(list.number);
     const auto same = [&](std::int32_t c) { return c == component.front(); };
@@ -50,7 +63,7 @@ std::vector<ShortestPath> paths_of_tile(const TableJob& job, const FieldTiles& t
     const FieldWindow field = tiles.window(around);
     Raster<std::uint8_t> seeing(field.vf_rad.size());  // a path may lead over what sees anything
     for (std::size_t i = 0; i < seeing.size(); ++i) seeing[i] = field.vf_rad[i] > 0 ? 1 : 0;
-    Flood flood(field.grid, seeing, field.closed, static_cast<std::int32_t>(10 * reach_cells));
+    Flood flood(field.grid, seeing, field.closed, static_cast<std::int32_t>(10 * reach_cells(job)));
     for (std::size_t i = 0; i < list.candidates.size(); ++i) {
         const std::int64_t cell = list.candidates[i].cell;
         if (cell < 0) continue;
@@ -114,15 +127,15 @@ std::vector<ShortestPath> make_paths(const TableJob& job, const FieldTiles& fiel
                                      const CandidateList& candidates,
                                      const Components& components) {
     if (components.count() < 2) return {};
-    const std::int64_t tiles = job.layout().tiles();
+    const std::int64_t blocks = in_blocks(job).tiles();
     const ShardNames names = job.passing("paths");
-    make_shards(job, names, tiles, [&](std::int64_t tile, const std::filesystem::path& path) {
-        write_paths(path, job.key, paths_of_tile(job, field, candidates, components, tile));
+    make_shards(job, names, blocks, [&](std::int64_t block, const std::filesystem::path& path) {
+        write_paths(path, job.key, paths_of_block(job, field, candidates, components, block));
     });
     make_one(job, names.phase(), names.whole(), [&](const std::filesystem::path& path) {
         std::vector<ShortestPath> all;
-        for (std::int64_t tile = 0; tile < tiles; ++tile) {
-            for (ShortestPath& p : read_paths(names.one(tile))) all.push_back(std::move(p));
+        for (std::int64_t block = 0; block < blocks; ++block) {
+            for (ShortestPath& p : read_paths(names.one(block))) all.push_back(std::move(p));
         }
         write_paths(path, job.key, shortest_few(std::move(all)));
     });

@@ -16,7 +16,7 @@ inline constexpr double paths_reach_ranges = 4;
 // Paths tried between two components, the shortest first, each between two other candidates.
 inline constexpr std::size_t paths_tried = 4;
 
-// Phase "paths": work/.../paths-NUMBER.h5, those that meet in a tile's cells, and paths.h5. None
+// Phase "paths": work/.../paths-NUMBER.h5, those that meet in a block of cells, and paths.h5. None
 // where there is one component.
 std::vector<ShortestPath> make_paths(const TableJob& job, const FieldTiles& field,
                                      const CandidateList& candidates, const Components& components);
