@@ -98,13 +98,20 @@ LocalRows local_rows(const std::vector<OverlapRow>& rows) {
 }
 
 PieceIndex index_of(const OverlapRows& rows, std::int64_t pieces) {
+    return index_of(rows, pieces, 0, rows.size());
+}
+
+PieceIndex index_of(const OverlapRows& rows, std::int64_t pieces, std::int32_t from,
+                    std::int32_t to) {
     // One place ahead, begin[p + 1] serves as piece p's write position: no second array.
     PieceIndex out;
     out.begin.assign(idx(pieces) + 2, 0);
-    for (const std::int32_t p : rows.piece) ++out.begin[idx(p) + 2];
+    const auto first = idx(rows.begin[idx(from)]);
+    const auto end = idx(rows.begin[idx(to)]);
+    for (std::size_t i = first; i < end; ++i) ++out.begin[idx(rows.piece[i]) + 2];
     for (std::size_t p = 2; p < out.begin.size(); ++p) out.begin[p] += out.begin[p - 1];
-    out.row.resize(rows.piece.size());
-    for (std::int32_t r = 0; r < rows.size(); ++r) {
+    out.row.resize(end - first);
+    for (std::int32_t r = from; r < to; ++r) {
         for (const std::int32_t p : rows.row(r)) out.row[idx(out.begin[idx(p) + 1]++)] = r;
     }
     out.begin.pop_back();

@@ -93,6 +93,9 @@ struct PieceIndex {
     }
 };
 PieceIndex index_of(const OverlapRows& rows, std::int64_t pieces);
+// Of the rows from..to alone, by their numbers.
+PieceIndex index_of(const OverlapRows& rows, std::int64_t pieces, std::int32_t from,
+                    std::int32_t to);
 
 // Length by row, for the few rows that one row shares pieces with: as large as they are, not as
 // all rows. Reused from row to row; not thread-safe.

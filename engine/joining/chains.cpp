@@ -73,28 +73,38 @@ private:
         std::vector<std::int32_t> components = p_.component;  // those that there are
         std::sort(components.begin(), components.end());
         components.erase(std::unique(components.begin(), components.end()), components.end());
+        // Some cells at a time: an index of all would be as large as their rows.
+        constexpr std::int32_t at_once = 1 << 15;
+        std::vector<std::pair<std::int32_t, std::int32_t>> out;
+        for (std::int32_t from = p_.candidates(); from < p_.local.rows.size(); from += at_once) {
+            beside(components, from, std::min(from + at_once, p_.local.rows.size()), out);
+        }
+        return out;
+    }
+
+    // The same for the nodes from..to, which are cells.
+    void beside(const std::vector<std::int32_t>& components, std::int32_t from, std::int32_t to,
+                std::vector<std::pair<std::int32_t, std::int32_t>>& out) const {
         constexpr std::size_t bits = 64;
         const std::size_t words = components.size() / bits + 1;
-        std::vector<std::uint64_t> found(words * idx(p_.cells()), 0);  // one found is enough
+        std::vector<std::uint64_t> found(words * idx(to - from), 0);  // one found is enough
         const auto& length_m = p_.local.piece_length_m;
         const PieceIndex index =
-            index_of(p_.local.rows, static_cast<std::int64_t>(length_m.size()));
-        threads_.for_each(p_.candidates(), rows_at_once, [&](std::int64_t from, std::int64_t to) {
+            index_of(p_.local.rows, static_cast<std::int64_t>(length_m.size()), from, to);
+        threads_.for_each(p_.candidates(), rows_at_once, [&](std::int64_t begin, std::int64_t end) {
             PairSearch search(p_.local.rows, index, length_m, formula(p_.rule.ratio).by_angle);
-            for (std::int64_t r = from; r < to; ++r) {
+            for (std::int64_t r = begin; r < end; ++r) {
                 const std::size_t k = idx(
                     std::lower_bound(components.begin(), components.end(), p_.component[idx(r)]) -
                     components.begin());
                 const std::uint64_t bit = std::uint64_t{1} << k % bits;
                 const auto word = [&](std::int32_t n) {
-                    return std::atomic_ref<std::uint64_t>(
-                        found[words * idx(n - p_.candidates()) + k / bits]);
+                    return std::atomic_ref<std::uint64_t>(found[words * idx(n - from) + k / bits]);
                 };
                 search.after(
                     static_cast<std::int32_t>(r),
                     [&](std::int32_t n) {
-                        return n >= p_.candidates() &&
-                               (word(n).load(std::memory_order_relaxed) & bit) == 0;
+                        return (word(n).load(std::memory_order_relaxed) & bit) == 0;
                     },
                     [&](std::int32_t n, const SeenJointly& joint) {
                         const double o =
@@ -103,14 +113,12 @@ private:
                     });
             }
         });
-        std::vector<std::pair<std::int32_t, std::int32_t>> out;
-        for (std::int32_t c = 0; c < p_.cells(); ++c) {
+        for (std::int32_t n = from; n < to; ++n) {
             for (std::size_t k = 0; k < components.size(); ++k) {
-                if ((found[words * idx(c) + k / bits] >> k % bits & 1U) == 0) continue;
-                out.emplace_back(c, components[k]);
+                if ((found[words * idx(n - from) + k / bits] >> k % bits & 1U) == 0) continue;
+                out.emplace_back(n - p_.candidates(), components[k]);
             }
         }
-        return out;
     }
 
     void join_by_one_cell() {

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <memory>
+#include <set>
 
 #include "engine/joining/knowledge.h"
 #include "kernels/index.h"
@@ -243,6 +243,22 @@ bool disputed(const CoverageRow& row, const DisputeRound& round) {
     return false;
 }
 
+// Pieces of a row as first and number of those that follow each other: the pieces of a wall mostly
+// do, and rows of all cells are kept.
+std::vector<std::int32_t> runs_of(const CoverageRow& row) {
+    std::vector<std::int32_t> out;
+    for (const Seen& s : row) {
+        if (!out.empty() && s.piece == out[out.size() - 2] + out.back()) {
+            ++out.back();
+        } else {
+            out.push_back(s.piece);
+            out.push_back(1);
+        }
+    }
+    out.shrink_to_fit();
+    return out;
+}
+
 // Looks from cells, some at a time; gives the disputed ones.
 std::vector<std::int64_t> looked_from(const TableJob& job, const DisputeRound& round,
                                       const std::vector<std::int64_t>& cells,
@@ -250,7 +266,7 @@ std::vector<std::int64_t> looked_from(const TableJob& job, const DisputeRound& r
     constexpr std::size_t at_once = 4096;
     const bool by_angle = formula(rule.ratio).by_angle;
     std::vector<std::int64_t> out;
-    std::map<std::vector<std::int32_t>, std::int64_t> first_with;
+    std::set<std::vector<std::int32_t>> rows_seen;
     for (std::size_t from = 0; from < cells.size(); from += at_once) {
         const std::size_t to = std::min(cells.size(), from + at_once);
         std::vector<Vec2d> eyes;
@@ -262,12 +278,10 @@ std::vector<std::int64_t> looked_from(const TableJob& job, const DisputeRound& r
         });
         for (std::size_t i = 0; i < rows.size(); ++i) {
             if (rows[i].empty()) continue;
-            std::vector<std::int32_t> pieces;
-            for (const Seen& s : rows[i]) pieces.push_back(s.piece);
-            const bool news = first_with.emplace(std::move(pieces), cells[from + i]).second;
+            const bool news = rows_seen.insert(runs_of(rows[i])).second;
             if (news || by_angle) out.push_back(cells[from + i]);
         }
-        if (by_angle) first_with.clear();
+        if (by_angle) rows_seen.clear();
     }
     return out;
 }

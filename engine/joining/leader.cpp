@@ -12,24 +12,6 @@
 #include "kernels/index.h"
 
 namespace vfplan {
-namespace {
-
-// Appends a row, its pieces numbered from `first_piece`; notes their lengths where there is room.
-void add_row(const SeenRow& row, bool angles, OverlapRows& rows, std::span<double> length_m,
-             std::int32_t first_piece = 0) {
-    for (const std::int32_t piece : row.piece) rows.piece.push_back(piece + first_piece);
-    if (angles) {
-        rows.angle_rad.insert(rows.angle_rad.end(), row.angle_rad.begin(), row.angle_rad.end());
-    }
-    rows.begin.push_back(static_cast<std::int64_t>(rows.piece.size()));
-    if (length_m.empty()) return;
-    for (std::size_t i = 0; i < row.piece.size(); ++i) {
-        length_m[idx(row.piece[i] + first_piece)] = row.length_of(i);
-    }
-}
-
-}  // namespace
-
 ShardNames shards_of_round(const TableJob& job, int round) {
     return job.passing("disputed", fmt::format("-{}", round));
 }
@@ -164,17 +146,16 @@ const Leader::State& Leader::state(int round) {
     std::sort(s.cells.begin(), s.cells.end());
     s.cells.erase(std::unique(s.cells.begin(), s.cells.end()), s.cells.end());
     std::vector<double> length_m(idx(pieces_.size()), 0);
-    const OverlapRows of_cells = rows_of_cells(s, length_m, std::move(before));
+    OverlapRows of_cells = rows_of_cells(s, length_m, known_of(std::move(before), length_m));
     OverlapRows& rows = s.local.rows;
     if (!s.cells.empty()) {
         std::vector<bool> wanted(idx(pieces_.size()), false);
         for (const std::int32_t p : of_cells.piece) wanted[idx(p)] = true;
         const CandidateRows some = candidates_covering(job_, candidates_, wanted);
         for (const std::int32_t c : some.number) s.component.push_back(component_[idx(c)]);
-        for (const OverlapRow& row : some.rows) add_row(row.seen(), by_angle(), rows, length_m);
+        for (const OverlapRow& row : some.rows) add_row(row, by_angle(), rows, length_m);
     }
-    for (std::int32_t c = 0; c < of_cells.size(); ++c)
-        add_row(of_cells.seen(c, {}), by_angle(), rows, {});
+    append(std::move(of_cells), rows);
     if (!rows.piece.empty()) {
         const auto [least, most] = std::minmax_element(rows.piece.begin(), rows.piece.end());
         s.first_piece = *least;
@@ -185,22 +166,29 @@ const Leader::State& Leader::state(int round) {
     return s;
 }
 
-OverlapRows Leader::rows_of_cells(State& s, std::vector<double>& length_m,
-                                  std::unique_ptr<const State> before) const {
+Leader::Known Leader::known_of(std::unique_ptr<const State> before,
+                               std::vector<double>& length_m) const {
+    Known out;
+    if (!before) return out;
+    out.cells = before->cells;
+    out.twins = before->twins;
+    out.rows = PackedRows(before->local.rows, static_cast<std::int32_t>(before->component.size()),
+                          before->first_piece);
+    std::copy(before->local.piece_length_m.begin(), before->local.piece_length_m.end(),
+              length_m.begin() + before->first_piece);
+    return out;
+}
+
+OverlapRows Leader::rows_of_cells(State& s, std::vector<double>& length_m, Known before) const {
     constexpr std::size_t at_once = 4096;
     std::vector<std::int64_t>& cells = s.cells;
-    if (before) {
-        s.twins = before->twins;
-        std::erase_if(cells, [&](std::int64_t c) {
-            return std::binary_search(s.twins.begin(), s.twins.end(), c);
-        });
-    }
+    s.twins = std::move(before.twins);
+    std::erase_if(cells, [&](std::int64_t c) {
+        return std::binary_search(s.twins.begin(), s.twins.end(), c);
+    });
     const auto known = [&](std::int64_t cell) {
-        if (!before) return nobody;
-        const auto at = std::lower_bound(before->cells.begin(), before->cells.end(), cell);
-        if (at == before->cells.end() || *at != cell) return nobody;
-        return static_cast<std::int32_t>(before->component.size() +
-                                         idx(at - before->cells.begin()));
+        const auto at = std::lower_bound(before.cells.begin(), before.cells.end(), cell);
+        return at != before.cells.end() && *at == cell ? at - before.cells.begin() : nobody;
     };
     OverlapRows all;
     for (std::size_t from = 0; from < cells.size(); from += at_once) {
@@ -211,16 +199,15 @@ OverlapRows Leader::rows_of_cells(State& s, std::vector<double>& length_m,
         }
         const std::vector<OverlapRow> looked = job_.scenes.overlap_rows(job_.threads, eyes);
         for (std::size_t i = from, k = 0; i < to; ++i) {
-            const std::int32_t row = known(cells[i]);
+            const std::ptrdiff_t row = known(cells[i]);
             if (row < 0) {
-                add_row(looked[k++].seen(), by_angle(), all, length_m);
+                add_row(looked[k++], by_angle(), all, length_m);
             } else {
-                add_row(before->local.rows.seen(row, before->local.piece_length_m), by_angle(), all,
-                        length_m, before->first_piece);
+                before.rows.unpack(idx(row), all);
             }
         }
     }
-    before.reset();
+    before = {};
     if (by_angle()) return all;
     std::vector<std::int32_t> order(cells.size());
     std::iota(order.begin(), order.end(), 0);
@@ -238,19 +225,18 @@ OverlapRows Leader::rows_of_cells(State& s, std::vector<double>& length_m,
     for (std::size_t i = 1; i < order.size(); ++i) {
         if (same(order[i - 1], order[i])) kept[idx(order[i])] = false;
     }
-    OverlapRows out;
     std::size_t count = 0;
     for (std::size_t c = 0; c < cells.size(); ++c) {
-        if (!kept[c]) {
+        if (kept[c]) {
+            cells[count++] = cells[c];
+        } else {
             s.twins.push_back(cells[c]);
-            continue;
         }
-        cells[count++] = cells[c];
-        add_row(all.seen(static_cast<std::int32_t>(c), {}), false, out, {});
     }
     cells.resize(count);
+    keep(kept, all);
     std::sort(s.twins.begin(), s.twins.end());
-    return out;
+    return all;
 }
 
 std::vector<std::int32_t> Leader::seen_by_sets(const State& s) const {

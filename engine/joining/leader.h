@@ -6,6 +6,7 @@
 
 #include "engine/joining/chains.h"
 #include "engine/joining/knowledge.h"
+#include "engine/joining/row_store.h"
 #include "engine/tables/shards.h"
 #include "io/tables/candidate_list.h"
 #include "io/tables/join_shards.h"
@@ -58,11 +59,18 @@ private:
     // With the cells of all rounds before.
     const State& state(int round);
     bool by_angle() const { return formula(rule_.ratio).by_angle; }
+    // What is known of cells from a state of fewer rounds, or nothing.
+    struct Known {
+        std::vector<std::int64_t> cells;
+        std::vector<std::int64_t> twins;
+        PackedRows rows;  // of the cells
+    };
+    // Notes the lengths of pieces.
+    Known known_of(std::unique_ptr<const State> before, std::vector<double>& length_m) const;
     // Of the state's cells, in the site's numbering, without angles where overlap goes by length;
-    // of cells with equal rows the first stays then. Notes the lengths of pieces. `before`: of
-    // fewer rounds, or none; what is known there is not looked at again.
-    OverlapRows rows_of_cells(State& s, std::vector<double>& length_m,
-                              std::unique_ptr<const State> before) const;
+    // of cells with equal rows the first stays then. Notes the lengths of pieces. What is known
+    // before is not looked at again.
+    OverlapRows rows_of_cells(State& s, std::vector<double>& length_m, Known before) const;
     // For each piece the set that sees it, or several or nobody.
     std::vector<std::int32_t> seen_by_sets(const State& s) const;
     // For each space the set that sees most of its pieces; -1 where nothing is to be joined: nobody
