@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "engine/check/proof_check.h"
+#include "engine/check/survival_check.h"
 #include "kernels/disjoint_sets.h"
 
 namespace vfplan {
@@ -73,7 +74,7 @@ Lists ranked_components(const OverlapRows& rows, const std::vector<double>& leng
 }  // namespace
 
 RunCheck check_plan(const CoverageTables& t, const CoverageEntries& entries, const PlanTable& table,
-                    const Certificate& certificate) {
+                    const Certificate& certificate, bool survives) {
     const bool by_angle = formula(table.overlap.ratio).by_angle;
     const OverlapRows rows{t.begin, entries.pieces(0, t.entries()),
                            by_angle ? entries.angles_rad(0, t.entries()) : std::vector<float>()};
@@ -114,12 +115,14 @@ RunCheck check_plan(const CoverageTables& t, const CoverageEntries& entries, con
     // The plan: each network of stations of its own component that cover its pieces and hang
     // together.
     std::vector<std::int32_t> network_of(near.size(), -1);
+    std::vector<std::uint8_t> chosen(near.size(), 0);
     for (const Station& s : table.plan.stations) {
         if (s.candidate < 0 || idx(s.candidate) >= near.size()) {
             out.wrong.emplace_back("a station is no candidate");
             return out;
         }
         network_of[idx(s.candidate)] = s.network;
+        chosen[idx(s.candidate)] = 1;
     }
     std::vector<std::int32_t> covered(owner.size(), -1);
     const CheckTables tables{rows, near, owner, standing};
@@ -151,6 +154,12 @@ RunCheck check_plan(const CoverageTables& t, const CoverageEntries& entries, con
             }
         }
         found += stations;
+        if (survives) {
+            const Survival lost = check_survival({networks[k], chosen, near, rows, owner, mine});
+            out.pieces_alone += lost.pieces_alone;
+            out.parting += lost.parting;
+            if (!lost.wrong.empty()) say(k, lost.wrong);
+        }
         if (parts > 1) say(k, fmt::format("its stations are {} parts", parts));
         const NetworkProof& proof = certificate.networks[k];
         if (proof.bound > stations) say(k, "it needs more stations than it has");

@@ -16,11 +16,14 @@ struct RunCheck {
     std::int64_t stations = 0;
     std::int64_t bound = 0;  // as the certificate claims
     std::int64_t networks = 0;
+    std::int64_t pieces_alone = 0;  // where survival is asked for: as Survival has them
+    std::int64_t parting = 0;
 };
 
 // Links, networks and what each has to cover anew from the rows; then whether each network of the
-// plan covers that and hangs together, and whether each proof proves its bound. Memory as planning.
+// plan covers that and hangs together, and whether each proof proves its bound; `survives`: and
+// whether it stands the loss of any one station (check_survival). Memory as planning.
 RunCheck check_plan(const CoverageTables& tables, const CoverageEntries& entries,
-                    const PlanTable& plan, const Certificate& certificate);
+                    const PlanTable& plan, const Certificate& certificate, bool survives = false);
 
 }  // namespace vfplan

@@ -64,8 +64,10 @@ TableOptions table_options(const Config& c) {
 }
 
 PlanOptions plan_options(const Config& c) {
-    return {c.plan.method,       c.plan.loops,      overlap_rule(c),      c.plan.effort,
-            c.plan.proof_effort, c.plan.candidates, c.plan.min_spacing_m, c.plan.shortcuts};
+    const bool survive = c.plan.survive > 0;
+    return {c.plan.method,       c.plan.loops || survive, overlap_rule(c),      c.plan.effort,
+            c.plan.proof_effort, c.plan.candidates,       c.plan.min_spacing_m, survive,
+            c.plan.shortcuts};
 }
 
 }  // namespace vfplan

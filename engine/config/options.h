@@ -80,6 +80,7 @@ struct PlanOptions {
     std::int64_t proof_effort = 8000;  // as prove() has it
     CandidatePool candidates = CandidatePool::axis;
     double min_spacing_m = 0;  // stations stand farther apart where that costs little
+    bool survive = false;      // the loss of any one station; loops are then asked for
     double shortcuts = 0;      // at most so many further stations, as a share of a network's
 };
 PlanOptions plan_options(const Config& config);

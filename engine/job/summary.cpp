@@ -106,13 +106,20 @@ Json summary_of_plan(const Planned& p, const CoverageTables& t) {
     };
     count("connected", p.report.connected);
     if (p.loops) {
-        count("loops", static_cast<std::int64_t>(p.plan.stations.size()) - p.report.shortcuts);
+        const std::int64_t more =
+            p.report.shortcuts + (p.report.survival ? p.report.survival->stations : 0);
+        count("loops", static_cast<std::int64_t>(p.plan.stations.size()) - more);
     }
     j["plan"] = {{"stations_greedy", p.report.greedy_stations},
                  {"off_cycle_connected", p.report.off_cycle_before},
                  {"off_cycle", p.report.off_cycle_after},
                  {"shortcuts", p.report.shortcuts},
                  {"too_near", p.report.too_near}};
+    if (const auto& survival = p.report.survival) {
+        j["plan"]["survival"] = {{"stations", survival->stations},
+                                 {"pieces_alone", survival->pieces_alone},
+                                 {"length_alone_m", survival->length_alone_m}};
+    }
     j["histograms"] = {{"stations_per_piece", m.multiplicity},
                        {"range_by_tenth_of_max", m.range_tenths},
                        {"incidence_by_10_deg", m.incidence_tens}};
@@ -176,6 +183,13 @@ std::string plan_text(const Planned& p, const CoverageTables& t, const Config& c
             ? fmt::format(" +- {:.3f} (from {} of the stations)", m.standard_error, m.sources)
             : "",
         m.bottleneck_overlap, m.bridges, m.bridges == 1 ? "" : "s", m.articulation_stations);
+    if (p.report.survival) {
+        out += fmt::format(
+            "survives     the loss of any one station, but for {} pieces ({:.1f} m) that one "
+            "candidate alone sees and {} stations without which no plan hangs together\n",
+            p.report.survival->pieces_alone, p.report.survival->length_alone_m,
+            m.articulation_stations);
+    }
     return out;
 }
 

@@ -70,6 +70,26 @@ std::int64_t stations_too_near(const PlanInput& in, const Plan& plan, double spa
     return count;
 }
 
+SurvivalReport pieces_alone(const PlanInput& in, const std::vector<std::int32_t>& owner,
+                            const std::vector<Network>& networks) {
+    std::vector<std::uint8_t> seen(owner.size(), 0);  // by so many candidates, as far as 2
+    for (std::size_t n = 0; n < networks.size(); ++n) {
+        for (const std::int32_t c : networks[n].members) {
+            for (const std::int32_t p : in.rows.row(c)) {
+                if (owner[idx(p)] != static_cast<std::int32_t>(n) || seen[idx(p)] == 2) continue;
+                ++seen[idx(p)];
+            }
+        }
+    }
+    SurvivalReport out;
+    for (std::size_t p = 0; p < seen.size(); ++p) {
+        if (seen[p] != 1) continue;
+        ++out.pieces_alone;
+        out.length_alone_m += in.piece_length_m[p];
+    }
+    return out;
+}
+
 // Stations for shorter ways, in each network by itself; returns how many.
 std::int64_t add_shortcuts(const Threads& threads, const PlanInput& in, double share,
                            std::vector<Network>& networks) {
@@ -192,10 +212,14 @@ Plan make_plan(const Threads& threads, const PlanInput& in, const PlanOptions& o
     for (const Network& n : networks) {
         report.connected += static_cast<std::int64_t>(n.connected.size());
     }
+    if (options.survive) {
+        report.survival = pieces_alone(in, owner, networks);
+        report.survival->stations = make_surviving(threads, in, options, owner, fixed, networks);
+    }
     report.shortcuts = add_shortcuts(threads, in, options.shortcuts, networks);
     report.off_cycle_before = stations_off_cycle(in, networks, &Network::connected);
     report.off_cycle_after = stations_off_cycle(in, networks, &Network::chosen);
-    add_stations(in, networks, options.method != PlanMethod::greedy, work, plan);
+    add_stations(in, networks, options.method != PlanMethod::greedy || options.survive, work, plan);
     add_links(in, plan);
     report.too_near = stations_too_near(in, plan, options.min_spacing_m);
     return plan;

@@ -1,11 +1,14 @@
 #include "engine/plan/refine.h"
 
+#include <numeric>
+
 #include "engine/graphs/cuts.h"
 #include "engine/plan/certify.h"
 #include "engine/search/reduce.h"
 #include "engine/search/search.h"
 #include "engine/search/settle.h"
 #include "engine/search/spacing.h"
+#include "engine/search/survive.h"
 
 namespace vfplan {
 namespace {
@@ -23,7 +26,7 @@ Choice searched(const Threads& threads, const Problem& whole, Reduce what, const
 
 // Larger plans stay where they were searched.
 constexpr std::size_t settled_most = 2000;
-constexpr double too_near = 100;  // of overlaps, each of which is 1 at most
+constexpr double too_near_cost = 100;  // of overlaps, each of which is 1 at most
 
 // Stations with more overlap make more and shorter ways through the network, and those that stand
 // by each other are no use to a surveyor.
@@ -40,10 +43,18 @@ Choice settled(const PlanInput& in, const Problem& problem,
         });
         if (problem.beside.size() == 0) return score;
         for (const std::int32_t n : problem.beside.of(c)) {
-            if (n != without && chosen.is_chosen(n)) score -= too_near;
+            if (n != without && chosen.is_chosen(n)) score -= too_near_cost;
         }
         return score;
     });
+}
+
+// By member those that stand too near by.
+Sparse too_near(const PlanInput& in, const std::vector<std::int32_t>& members, double spacing_m) {
+    if (spacing_m <= 0) return {};
+    std::vector<Vec2d> at;
+    for (const std::int32_t c : members) at.push_back(in.candidates[idx(c)].at);
+    return nearer_than(at, spacing_m);
 }
 
 }  // namespace
@@ -65,13 +76,7 @@ Certificate refine(const Threads& threads, const PlanInput& in, const PlanOption
                 const Network& network = networks[idx(n)];
                 Problem problem =
                     problems.of(network.members, owner, static_cast<std::int32_t>(n), fixed);
-                if (options.min_spacing_m > 0) {
-                    std::vector<Vec2d> at;
-                    for (const std::int32_t c : network.members) {
-                        at.push_back(in.candidates[idx(c)].at);
-                    }
-                    problem.beside = nearer_than(at, options.min_spacing_m);
-                }
+                problem.beside = too_near(in, network.members, options.min_spacing_m);
                 const Choice start = columns_of(network.members, network.chosen);
                 const SearchOptions search{options.effort, static_cast<std::uint64_t>(n)};
                 Choice& plan = found[idx(task)];
@@ -102,6 +107,32 @@ Certificate refine(const Threads& threads, const PlanInput& in, const PlanOption
             connected.size() < networks[n].chosen.size() ? chosen(connected) : networks[n].chosen;
     }
     return proofs;
+}
+
+std::int64_t make_surviving(const Threads& threads, const PlanInput& in, const PlanOptions& options,
+                            const std::vector<std::int32_t>& owner,
+                            const std::vector<std::uint8_t>& fixed,
+                            std::vector<Network>& networks) {
+    constexpr std::int64_t steps_each = 4;  // they cost less than those of the search before
+    std::vector<std::int64_t> more(networks.size(), 0);
+    const auto one = [&](NetworkProblems& problems, std::int64_t n) {
+        Network& network = networks[idx(n)];
+        Problem problem = problems.of(network.members, owner, static_cast<std::int32_t>(n), fixed);
+        problem.beside = too_near(in, network.members, options.min_spacing_m);
+        const Choice start = columns_of(network.members, network.chosen);
+        const auto stations = static_cast<std::int64_t>(start.size());
+        const Choice plan = survive(problem, start, steps_each * options.effort * stations,
+                                    static_cast<std::uint64_t>(n));
+        network.chosen.clear();
+        for (const std::int32_t c : plan) network.chosen.push_back(network.members[idx(c)]);
+        more[idx(n)] = static_cast<std::int64_t>(plan.size()) - stations;
+    };
+    threads.for_each(static_cast<std::int64_t>(networks.size()), 1,
+                     [&](std::int64_t from, std::int64_t to) {
+                         NetworkProblems problems(in);
+                         for (std::int64_t n = from; n < to; ++n) one(problems, n);
+                     });
+    return std::accumulate(more.begin(), more.end(), std::int64_t{0});
 }
 
 }  // namespace vfplan

@@ -18,4 +18,10 @@ Certificate refine(const Threads& threads, const PlanInput& input, const PlanOpt
                    const std::vector<std::int32_t>& owner, const std::vector<std::uint8_t>& fixed,
                    std::vector<Network>& networks);
 
+// Makes each network survive the loss of any one of its stations (engine/search/survive.h); returns
+// how many stations more that takes in all. The number of threads changes nothing.
+std::int64_t make_surviving(const Threads& threads, const PlanInput& input,
+                            const PlanOptions& options, const std::vector<std::int32_t>& owner,
+                            const std::vector<std::uint8_t>& fixed, std::vector<Network>& networks);
+
 }  // namespace vfplan

@@ -38,4 +38,12 @@ private:
     std::uint64_t state_;
 };
 
+// e^-x, by means that give the same bits everywhere; 0 <= x.
+inline double fading(double x) {
+    if (x >= 64) return 0;
+    double y = 1 - x / 1024;
+    for (int i = 0; i < 10; ++i) y *= y;
+    return y;
+}
+
 }  // namespace vfplan

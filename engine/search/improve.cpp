@@ -15,14 +15,6 @@ namespace {
 // Costs and weights are whole numbers, so that sums do not depend on their order.
 constexpr std::int64_t one = 1 << 20;
 
-// e^-x, by means that give the same bits everywhere; 0 <= x.
-double fading(double x) {
-    if (x >= 64) return 0;
-    double y = 1 - x / 1024;
-    for (int i = 0; i < 10; ++i) y *= y;
-    return y;
-}
-
 class Improver {
 public:
     Improver(const Problem& problem, const Choice& start, const ImproveOptions& options)

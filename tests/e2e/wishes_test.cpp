@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <sstream>
 
 #include "program.h"
 
@@ -72,6 +73,73 @@ TEST_F(Wishes, NoStationWhereItIsForbidden) {
     const Output gone = vfplan_process(job("none", {"plan.forbidden=nowhere.geojson"}));
     EXPECT_EQ(gone.code, 4);
     EXPECT_NE(gone.err.find("plan.forbidden"), std::string::npos) << gone.err;
+}
+
+// The links of a plan, by station.
+std::vector<std::vector<std::size_t>> links_of(const std::string& dir, std::size_t stations) {
+    std::vector<std::vector<std::size_t>> out(stations);
+    std::istringstream in(read_bytes(dir + "/links.csv"));
+    std::string line;
+    std::getline(in, line);
+    while (std::getline(in, line)) {
+        std::size_t comma = 0;
+        const std::size_t from = std::stoul(line, &comma);
+        const std::size_t to = std::stoul(line.substr(comma + 1));
+        out[from].push_back(to);
+        out[to].push_back(from);
+    }
+    return out;
+}
+
+TEST_F(Wishes, APlanThatSurvivesStandsTheLossOfAnyStation) {
+    vfplan_expect(0, job("weak", {}));
+    vfplan_expect(0, job("run", {"plan.survive=1"}));
+    const Json summary = read_json(scratch / "run/summary.json");
+    ASSERT_EQ(summary["networks"], 1);
+    const auto stations = summary["stations"].get<std::size_t>();
+    EXPECT_EQ(summary["stations_loops"].get<std::size_t>() +
+                  summary["plan"]["survival"]["stations"].get<std::size_t>(),
+              stations);
+    const auto links = links_of(scratch / "run", stations);
+    std::size_t parting = 0;
+    for (std::size_t lost = 0; lost < stations; ++lost) {
+        std::vector<std::size_t> queue = {lost == 0 ? std::size_t{1} : 0};
+        std::vector<bool> met(stations, false);
+        met[queue[0]] = met[lost] = true;
+        for (std::size_t i = 0; i < queue.size(); ++i) {
+            for (const std::size_t n : links[queue[i]]) {
+                if (met[n]) continue;
+                met[n] = true;
+                queue.push_back(n);
+            }
+        }
+        parting += queue.size() + 1 < stations ? 1 : 0;
+    }
+    EXPECT_EQ(summary["articulation_stations"], parting);
+    const Output good = vfplan_process({"verify", scratch / "run"});
+    EXPECT_EQ(good.code, 0) << good.out;
+    EXPECT_NE(good.out.find("without any one station"), std::string::npos) << good.out;
+    // The plan of a job that did not ask for it.
+    std::filesystem::copy_file(scratch / "weak/plan.h5", scratch / "run/plan.h5",
+                               std::filesystem::copy_options::overwrite_existing);
+    const Output bad = vfplan_process({"verify", scratch / "run"});
+    EXPECT_EQ(bad.code, 1) << bad.out;
+    EXPECT_NE(bad.out.find("need not"), std::string::npos) << bad.out;
+}
+
+TEST_F(Wishes, ShortcutsMakeWaysShorter) {
+    vfplan_expect(0, job("run", {}));
+    vfplan_expect(0, {"plan", scratch / "run", "--out", scratch / "short", "--set",
+                      "plan.shortcuts=0.2", "--quiet"});
+    const Json before = read_json(scratch / "run/summary.json");
+    const Json after = read_json(scratch / "short/summary.json");
+    const auto more = after["plan"]["shortcuts"].get<int>();
+    EXPECT_GT(more, 0);
+    EXPECT_LE(more, before["stations"].get<int>() / 5);
+    EXPECT_EQ(after["stations"].get<int>(), before["stations"].get<int>() + more);
+    EXPECT_EQ(after["stations_loops"], before["stations_loops"]);
+    EXPECT_LT(after["wapl"].get<double>(), before["wapl"].get<double>());
+    vfplan_expect(0, {"verify", scratch / "short"});
 }
 
 // What tables depend on cannot be changed by planning again, so it is refused, not ignored.

@@ -53,7 +53,7 @@ Config unusual() {
         "[coverage]\npartition_m = 0.333\nvisible_fraction = 0.7\n"
         "[overlap]\nratio = 'union_ang'\nthreshold = 0.15\n"
         "[plan]\nmethod = 'greedy'\ncandidates = 'axis'\npool_tried = 3\npool_taken = "
-        "4\nmin_spacing_m = 5\nshortcuts = 0.5\nloops = "
+        "4\nmin_spacing_m = 5\nsurvive = 1\nshortcuts = 0.5\nloops = "
         "false\neffort = 7\nproof_effort = 9\n"
         "required = [[1, 2.5], [3, -4]]\nforbidden = 'no/go.geojson'\nexisting = [[5e6, 0.1]]\n"
         "[output]\nformats = ['png']\nmap_px = 300\n",
