@@ -16,6 +16,9 @@ namespace {
 constexpr std::size_t window_stations = 250;
 // A plan with not much more is one window.
 constexpr std::size_t one_window = 400;
+// The search of a plan with fewer stations takes as many steps as if it had these: they cost
+// little.
+constexpr std::int64_t small_plan = 100;
 constexpr std::int64_t rounds = 4;
 
 using Stations = std::vector<std::int32_t>;
@@ -149,7 +152,8 @@ private:
 Choice search(const Threads& threads, const Problem& problem, const Choice& start,
               const SearchOptions& options) {
     if (start.size() <= one_window) {
-        const auto steps = options.effort * static_cast<std::int64_t>(start.size());
+        const auto steps =
+            options.effort * std::max(small_plan, static_cast<std::int64_t>(start.size()));
         return improve(problem, start, {steps, options.seed, true});
     }
     return WindowSearch(threads, problem, start, options).run();
