@@ -63,5 +63,30 @@ TEST(Inspect, ASignalEndsIt) {
     }
 }
 
+// A room of 5 x 5 m, and a corridor that is too narrow for a tripod and too long for a doorway.
+TEST(Inspect, NarrowGroundIsTold) {
+    const Scratch scratch;
+    const std::string site = scratch.write(
+        "flat.geojson",
+        R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"class":"outline"},)"
+        R"("geometry":{"type":"Polygon","coordinates":[[[0,0],[5,0],[5,1],[9,1],[9,1.7],[5,1.7],)"
+        R"([5,5],[0,5],[0,0]]]}}]})");
+    const Output told = vfplan_process({"inspect", site, "--out", scratch / "site.png"});
+    EXPECT_EQ(told.code, 0) << told.err;
+    EXPECT_NE(told.out.find("of ground in 1 place where no station may stand 0.4 m from walls"),
+              std::string::npos)
+        << told.out;
+    const Output free = vfplan_process(
+        {"inspect", site, "--out", scratch / "site.png", "--set", "site.clearance_m=0"});
+    EXPECT_EQ(free.out.find("narrow "), std::string::npos) << free.out;
+
+    vfplan_expect(0, {"run", site, "--out", scratch / "run", "--quiet", "--set",
+                      "field.cell_m=0.05", "--set", "output.formats=['csv']"});
+    const Json summary = read_json(scratch / "run/summary.json");
+    ASSERT_EQ(summary["site"]["narrow"].size(), 1u);
+    EXPECT_NEAR(summary["site"]["narrow"][0]["x"].get<double>(), 7, 0.3);
+    EXPECT_NEAR(summary["site"]["narrow_m2"].get<double>(), 2.7, 0.3);
+}
+
 }  // namespace
 }  // namespace vfplan::test
