@@ -1,6 +1,7 @@
 #include "engine/joining/takers.h"
 
 #include <algorithm>
+#include <queue>
 #include <tuple>
 #include <unordered_map>
 #include <unordered_set>
@@ -60,23 +61,32 @@ std::vector<std::int32_t> find_takers(const TakerProblem& p) {
         if (std::binary_search(covered.begin(), covered.end(), SetPiece(set, piece))) continue;
         lacks[idx(set)].insert(piece);
     }
+    const auto lacking = [&](std::int32_t c) {
+        const auto row = pieces_of(c);
+        const auto& lacks_of = lacks[idx(p.joined.set_of_cell[idx(c)])];
+        return std::count_if(row.begin(), row.end(), [&](std::int32_t piece) {
+            return lacks_of.contains(piece + p.first_piece);
+        });
+    };
+    // What a cell can take only becomes less: what was counted before is never too little, and who
+    // comes out on top when counted anew has most, of equals the first.
+    using Entry = std::pair<std::int64_t, std::int32_t>;  // pieces, -cell
+    std::priority_queue<Entry> most;
+    for (std::int32_t c = 0; c < cells; ++c) {
+        const std::int32_t set = p.joined.set_of_cell[idx(c)];
+        if (set < 0 || set >= sets || lacks[idx(set)].empty()) continue;
+        if (const auto n = lacking(c); n > 0) most.emplace(n, -c);
+    }
     std::vector<std::int32_t> out;
-    for (;;) {
-        std::int64_t most = 0;
-        std::int32_t best = -1;
-        for (std::int32_t c = 0; c < cells; ++c) {
-            const std::int32_t set = p.joined.set_of_cell[idx(c)];
-            if (set < 0 || set >= sets || lacks[idx(set)].empty()) continue;
-            const auto row = pieces_of(c);
-            const auto n = std::count_if(row.begin(), row.end(), [&](std::int32_t piece) {
-                return lacks[idx(set)].contains(piece + p.first_piece);
-            });
-            if (n <= most) continue;
-            most = n;
-            best = c;
+    while (!most.empty()) {
+        const auto [before, minus] = most.top();
+        most.pop();
+        const auto n = lacking(-minus);
+        if (n < before) {
+            if (n > 0) most.emplace(n, minus);
+            continue;
         }
-        if (best < 0) break;
-        for (std::int32_t c = best; c >= 0; c = p.joined.next[idx(c)]) {
+        for (std::int32_t c = -minus; c >= 0; c = p.joined.next[idx(c)]) {
             out.push_back(c);
             for (const std::int32_t piece : pieces_of(c)) {
                 lacks[idx(p.joined.set_of_cell[idx(c)])].erase(piece + p.first_piece);
