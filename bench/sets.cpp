@@ -74,9 +74,11 @@ void Sets::start_plan() {
         if (covered[n] == 0) open_bits[n / 64] |= bit(static_cast<std::int32_t>(n));
     }
     ruined.push_back(plan);  // taken and put once as a whole
-    for (std::size_t k = 0; k < std::min<std::size_t>(plan.size(), 1000); ++k) {
-        std::vector<std::int32_t> ball = {plan[k]};
-        for (const std::int32_t n : lists.of(plan[k])) {
+    // So many that what a run makes ready and hands back does not count beside them.
+    for (std::size_t k = 0; k < 4000 && !plan.empty(); ++k) {
+        const std::int32_t seed = plan[k % plan.size()];
+        std::vector<std::int32_t> ball = {seed};
+        for (const std::int32_t n : lists.of(seed)) {
             for (const std::int32_t c : listed_by.of(n)) {
                 if (chosen[idx(c)] != 0 && ball.size() < 8 &&
                     std::find(ball.begin(), ball.end(), c) == ball.end()) {
