@@ -65,6 +65,16 @@ const Scene* scene(const std::string& name) {
         if (std::filesystem::exists(file)) {
             s = std::make_unique<Scene>(make_scene(name, "town.toml", file));
         }
+    } else if (name == "office") {
+        const auto file = data_file("plans_offices_schools/office_off_2.geojson");
+        if (std::filesystem::exists(file)) {
+            s = std::make_unique<Scene>(make_scene(name, "office.toml", file));
+        }
+    } else if (name == "allegheny") {
+        const auto file = data_file("city_allegheny/allegheny_core_5km.geojson");
+        if (std::filesystem::exists(file)) {
+            s = std::make_unique<Scene>(make_scene(name, "city.toml", file));
+        }
     }
     return s.get();
 }

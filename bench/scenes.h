@@ -37,6 +37,8 @@ void write_site(const Scene& scene, const std::filesystem::path& dir, const std:
 //   flat       generated, 12 rooms, cells of 0.05 m, range 30 m, pieces of 0.1 m
 //   city       generated, 1 km2, cells of 2 m, range 75 m, pieces of 1 m
 //   bellevue   the real town of the town's size, with the town's parameters, from the data folder
+//   office     a real floor, cells of 0.05 m, likewise
+//   allegheny  25 km2 of a real city, with the city's parameters, likewise
 // nullptr where the data are missing.
 const Scene* scene(const std::string& name);
 

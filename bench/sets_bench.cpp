@@ -1,261 +1,369 @@
-// Rows of the coverage table as sorted lists (what the search uses) or as sorted blocks of 64 bits,
-// in what the search does with them. Each pair of benchmarks must give the same result.
+// Rows of the coverage table as sorted lists (what planning uses), as sorted blocks of 64 bits, and
+// as a bit for each piece, in what planning does with them. All forms must give the same.
 #include <benchmark/benchmark.h>
-#include <unistd.h>
+#include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <bit>
-#include <cmath>
-#include <filesystem>
-#include <map>
-#include <memory>
-#include <random>
+#include <ctime>
+#include <string>
+#include <utility>
 
-#include "bench/scenes.h"
-#include "engine/job/tables.h"
-#include "io/tables/coverage_file.h"
-#include "kernels/coverage.h"
-#include "kernels/index.h"
+#include "bench/networks.h"
+#include "bench/sets.h"
+#include "engine/search/reduce.h"
+#include "engine/search/search.h"
 
 namespace vfplan::bench {
 namespace {
 
-struct Block {
-    std::int32_t word;  // pieces 64 * word ...
-    std::uint64_t bits;
+using Result = std::vector<double>;
+
+template <class Gain>
+Result for_all(const Sets& s, const Gain& gain) {
+    Result out;
+    out.reserve(idx(s.lists.size()));
+    for (std::int32_t i = 0; i < s.lists.size(); ++i) out.push_back(gain(i));
+    return out;
+}
+
+// --- gains: by length, in ascending order, so that sums have the same bits; and by count
+// ----------
+
+Result length_lists(const Sets& s) {
+    return for_all(s, [&](std::int32_t i) {
+        double sum = 0;
+        for (const std::int32_t n : s.lists.of(i)) {
+            if (s.covered[idx(n)] == 0) sum += s.length_m[idx(n)];
+        }
+        return sum;
+    });
+}
+// Covered pieces have length 0: nothing to ask, and adding 0 changes no bit.
+Result length_zeroed(const Sets& s) {
+    return for_all(s, [&](std::int32_t i) {
+        double sum = 0;
+        for (const std::int32_t n : s.lists.of(i)) sum += s.open_m[idx(n)];
+        return sum;
+    });
+}
+Result length_blocks(const Sets& s) {
+    return for_all(s, [&](std::int32_t i) {
+        double sum = 0;
+        s.blocks.each(i, [&](std::int32_t w, std::uint64_t bits) {
+            const double* of = s.length_m.data() + 64 * idx(w);
+            each_bit(bits & s.open_bits[idx(w)], [&](int b) { sum += of[b]; });
+        });
+        return sum;
+    });
+}
+Result length_dense(const Sets& s) {
+    return for_all(s, [&](std::int32_t i) {
+        double sum = 0;
+        const std::uint64_t* row = s.dense.data() + s.words * idx(i);
+        for (std::size_t w = 0; w < s.words; ++w) {
+            const double* of = s.length_m.data() + 64 * w;
+            each_bit(row[w] & s.open_bits[w], [&](int b) { sum += of[b]; });
+        }
+        return sum;
+    });
+}
+Result count_lists(const Sets& s) {
+    return for_all(s, [&](std::int32_t i) {
+        std::int64_t sum = 0;
+        for (const std::int32_t n : s.lists.of(i)) sum += 1 - s.covered[idx(n)];
+        return static_cast<double>(sum);
+    });
+}
+Result count_blocks(const Sets& s) {
+    return for_all(s, [&](std::int32_t i) {
+        std::int64_t sum = 0;
+        s.blocks.each(i, [&](std::int32_t w, std::uint64_t bits) {
+            sum += std::popcount(bits & s.open_bits[idx(w)]);
+        });
+        return static_cast<double>(sum);
+    });
+}
+Result count_dense(const Sets& s) {
+    return for_all(s, [&](std::int32_t i) {
+        std::int64_t sum = 0;
+        const std::uint64_t* row = s.dense.data() + s.words * idx(i);
+        for (std::size_t w = 0; w < s.words; ++w) sum += std::popcount(row[w] & s.open_bits[w]);
+        return static_cast<double>(sum);
+    });
+}
+
+// --- domination: as engine/search/reduce.cpp looks for it, among those that share the rarest
+// ------
+
+template <class Within>
+Result dominated(const Sets& s, const Within& within) {
+    Result out;
+    for (const std::int32_t c : s.asked) {
+        std::int32_t rarest = -1;
+        for (const std::int32_t n : s.lists.of(c)) {
+            if (rarest < 0 || s.listed_by.of(n).size() < s.listed_by.of(rarest).size()) rarest = n;
+        }
+        std::int32_t hits = 0;
+        if (rarest >= 0) {
+            for (const std::int32_t by : s.listed_by.of(rarest)) {
+                if (by == c || (s.signature[idx(c)] & ~s.signature[idx(by)]) != 0) continue;
+                hits += within(c, by) ? 1 : 0;
+            }
+        }
+        out.push_back(hits);
+    }
+    return out;
+}
+Result subset_lists(const Sets& s) {
+    return dominated(s, [&](std::int32_t part, std::int32_t whole) {
+        const auto all = s.lists.of(whole);
+        auto at = all.begin();
+        for (const std::int32_t n : s.lists.of(part)) {
+            if (s.there[idx(n)] == 0) continue;
+            while (at != all.end() && *at < n) ++at;
+            if (at == all.end() || *at != n) return false;
+        }
+        return true;
+    });
+}
+Result subset_blocks(const Sets& s) {
+    const Blocks& b = s.blocks;
+    return dominated(s, [&](std::int32_t part, std::int32_t whole) {
+        auto at = idx(b.begin[idx(whole)]);
+        const auto end = idx(b.begin[idx(whole) + 1]);
+        for (auto i = idx(b.begin[idx(part)]); i < idx(b.begin[idx(part) + 1]); ++i) {
+            const std::uint64_t bits = b.bits[i] & s.all_there[idx(b.word[i])];
+            if (bits == 0) continue;
+            while (at < end && b.word[at] < b.word[i]) ++at;
+            if (at == end || b.word[at] != b.word[i] || (bits & ~b.bits[at]) != 0) return false;
+        }
+        return true;
+    });
+}
+Result subset_dense(const Sets& s) {
+    return dominated(s, [&](std::int32_t part, std::int32_t whole) {
+        const std::uint64_t* p = s.dense.data() + s.words * idx(part);
+        const std::uint64_t* q = s.dense.data() + s.words * idx(whole);
+        for (std::size_t w = 0; w < s.words; ++w) {
+            if ((p[w] & s.all_there[w] & ~q[w]) != 0) return false;
+        }
+        return true;
+    });
+}
+
+// --- ruin and recreate: stations go and come again, with what engine/search/choosing.cpp notes
+// ----
+
+struct Notes {
+    const Sets& s;
+    std::vector<std::int32_t> cover, owner, alone;
+    double bared = 0;
+
+    explicit Notes(const Sets& sets)
+        : s(sets), cover(s.length_m.size()), owner(cover.size()), alone(idx(s.lists.size())) {}
+    void put(std::int32_t r, std::int32_t c) {
+        const std::int32_t before = cover[idx(r)]++;
+        if (before == 0) ++alone[idx(c)];
+        if (before == 1) --alone[idx(owner[idx(r)])];
+        owner[idx(r)] ^= c;
+    }
+    void take(std::int32_t r, std::int32_t c) {
+        owner[idx(r)] ^= c;
+        const std::int32_t left = --cover[idx(r)];
+        if (left == 0) --alone[idx(c)], ++bared;
+        if (left == 1) ++alone[idx(owner[idx(r)])];
+    }
+    Result result() const {
+        Result out(cover.begin(), cover.end());
+        out.insert(out.end(), alone.begin(), alone.end());
+        out.push_back(bared);
+        return out;
+    }
 };
 
-// A site's rows in both forms.
-struct Sets {
-    std::vector<std::int64_t> begin;
-    std::vector<std::int32_t> piece;
-    std::vector<std::int64_t> block_begin = {0};
-    std::vector<Block> block;
-    std::vector<double> length_m;  // of pieces
-    std::vector<std::uint8_t> covered;
-    std::vector<std::uint64_t> covered_bits;
-    std::vector<std::pair<std::int32_t, std::int32_t>> pairs;  // rows that share a piece
+// Puts the plan, then takes and puts each ball.
+template <class Put, class Take>
+void ruin(const Sets& s, const Put& put, const Take& take) {
+    for (std::size_t k = 0; k < s.ruined.size(); ++k) {
+        for (const std::int32_t c : s.ruined[k]) {
+            if (k > 0) take(c);
+        }
+        for (const std::int32_t c : s.ruined[k]) put(c);
+    }
+}
+Result change_lists(const Sets& s) {
+    Notes n(s);
+    const auto put = [&](std::int32_t c) {
+        for (const auto r : s.lists.of(c)) n.put(r, c);
+    };
+    const auto take = [&](std::int32_t c) {
+        for (const auto r : s.lists.of(c)) n.take(r, c);
+    };
+    ruin(s, put, take);
+    return n.result();
+}
+Result change_blocks(const Sets& s) {
+    Notes n(s);
+    const auto rows = [&](std::int32_t c, const auto& f) {
+        s.blocks.each(c, [&](std::int32_t w, std::uint64_t bits) {
+            each_bit(bits, [&](int b) { f(64 * w + b); });
+        });
+    };
+    const auto put = [&](std::int32_t c) { rows(c, [&](std::int32_t r) { n.put(r, c); }); };
+    const auto take = [&](std::int32_t c) { rows(c, [&](std::int32_t r) { n.take(r, c); }); };
+    ruin(s, put, take);
+    return n.result();
+}
+// Counts of cover alone: all that bits can keep, one digit of 64 counts in a word. Who covers a row
+// alone, which the search asks, they cannot say.
+Result cover_lists(const Sets& s) {
+    std::vector<std::int32_t> cover(s.length_m.size(), 0);
+    double bared = 0;
+    ruin(
+        s,
+        [&](std::int32_t c) {
+            for (const auto r : s.lists.of(c)) ++cover[idx(r)];
+        },
+        [&](std::int32_t c) {
+            for (const auto r : s.lists.of(c)) bared += --cover[idx(r)] == 0 ? 1 : 0;
+        });
+    Result out(cover.begin(), cover.end());
+    out.push_back(bared);
+    return out;
+}
+Result cover_blocks(const Sets& s) {
+    constexpr int digits = 12;
+    std::vector<std::array<std::uint64_t, digits>> count(s.words);
+    std::int64_t bared = 0;
+    ruin(
+        s,
+        [&](std::int32_t c) {
+            s.blocks.each(c, [&](std::int32_t w, std::uint64_t carry) {
+                for (int d = 0; carry != 0; ++d) {
+                    const std::uint64_t was =
+                        std::exchange(count[idx(w)][d], count[idx(w)][d] ^ carry);
+                    carry &= was;
+                }
+            });
+        },
+        [&](std::int32_t c) {
+            s.blocks.each(c, [&](std::int32_t w, std::uint64_t bits) {
+                std::uint64_t borrow = bits;
+                std::uint64_t left = 0;
+                for (int d = 0; d < digits; ++d) {
+                    std::uint64_t& digit = count[idx(w)][d];
+                    digit ^= borrow;
+                    borrow &= digit;
+                    left |= digit;
+                }
+                bared += std::popcount(bits & ~left);
+            });
+        });
+    Result out;
+    for (std::size_t r = 0; r < s.length_m.size(); ++r) {
+        double sum = 0;
+        for (int d = digits; d-- > 0;)
+            sum = 2 * sum + static_cast<double>(count[r / 64][d] >> (r % 64) & 1);
+        out.push_back(sum);
+    }
+    out.push_back(static_cast<double>(bared));
+    return out;
+}
 
-    std::int32_t rows() const { return static_cast<std::int32_t>(begin.size()) - 1; }
-    std::span<const std::int32_t> list(std::int32_t r) const {
-        return {piece.data() + begin[idx(r)], piece.data() + begin[idx(r) + 1]};
-    }
-    std::span<const Block> blocks(std::int32_t r) const {
-        return {block.data() + block_begin[idx(r)], block.data() + block_begin[idx(r) + 1]};
-    }
+// --- the benchmarks -----------------------------------------------------------------------------
 
-    Sets(const CoverageTables& t, const CoverageEntries& entries)
-        : begin(t.begin),
-          piece(entries.pieces(0, t.entries())),
-          length_m(piece_lengths_m(t.pieces)),
-          covered(length_m.size(), 0),
-          covered_bits(length_m.size() / 64 + 1, 0) {
-        std::mt19937_64 random(1);
-        for (std::int32_t r = 0; r < rows(); ++r) {
-            for (const std::int32_t p : list(r)) {
-                const bool same = static_cast<std::int64_t>(block.size()) > block_begin.back() &&
-                                  block.back().word == p / 64;
-                if (!same) block.push_back({p / 64, 0});
-                block.back().bits |= std::uint64_t{1} << (p % 64);
-            }
-            block_begin.push_back(static_cast<std::int64_t>(block.size()));
-        }
-        // As in the middle of a plan: a tenth of the stations of one.
-        for (std::int32_t k = 0; k < rows() / 100 + 1; ++k) {
-            for (const std::int32_t p : list(below(random, rows()))) {
-                covered[idx(p)] = 1;
-                covered_bits[idx(p / 64)] |= std::uint64_t{1} << (p % 64);
-            }
-        }
-        std::vector<std::vector<std::int32_t>> viewers(length_m.size());
-        for (std::int32_t r = 0; r < rows(); ++r) {
-            for (const std::int32_t p : list(r)) viewers[idx(p)].push_back(r);
-        }
-        while (pairs.size() < 20000) {
-            const std::int32_t a = below(random, rows());
-            if (list(a).empty()) continue;
-            const auto& with = viewers[idx(
-                list(a)[idx(below(random, static_cast<std::int32_t>(list(a).size())))])];
-            pairs.emplace_back(a, with[idx(below(random, static_cast<std::int32_t>(with.size())))]);
-        }
-    }
-
-private:
-    static std::int32_t below(std::mt19937_64& random, std::int32_t n) {
-        return static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(n));
-    }
+using Work = Result (*)(const Sets&);
+struct Form {
+    const char* name;
+    Work work;
 };
 
-// nullptr where the site's data are missing.
-const Sets* sets(const std::string& name) {
-    static std::map<std::string, std::unique_ptr<Sets>> all;
-    const auto found = all.find(name);
-    if (found != all.end()) return found->second.get();
-    std::unique_ptr<Sets>& made = all[name];
-    const Scene* site = scene(name);
-    if (site == nullptr) return nullptr;
-    const std::filesystem::path dir =
-        std::filesystem::temp_directory_path() / ("vfplan_sets_" + std::to_string(getpid()));
-    write_site(*site, dir, "bench");
-    const Threads threads(1);
-    const Ranks ranks;
-    Progress progress(true);
-    make_tables(table_options(site->config), dir, "bench", threads, ranks, progress);
-    {
-        const CoverageTables tables = read_coverage(dir / "coverage.h5");
-        made = std::make_unique<Sets>(tables, CoverageEntries(dir / "coverage.h5"));
-    }
-    std::filesystem::remove_all(dir);
-    return made.get();
-}
-
-template <class F>
-void each_bit(std::uint64_t bits, F&& f) {
-    for (; bits != 0; bits &= bits - 1) f(std::countr_zero(bits));
-}
-
-// What a station would add: the greedy gain of every row, in metres.
-double gains_of_lists(const Sets& s) {
-    double sum = 0;
-    for (std::int32_t r = 0; r < s.rows(); ++r) {
-        for (const std::int32_t p : s.list(r)) {
-            if (s.covered[idx(p)] == 0) sum += s.length_m[idx(p)];
-        }
-    }
-    return sum;
-}
-double gains_of_blocks(const Sets& s) {
-    double sum = 0;
-    for (std::int32_t r = 0; r < s.rows(); ++r) {
-        for (const Block& b : s.blocks(r)) {
-            each_bit(b.bits & ~s.covered_bits[idx(b.word)],
-                     [&](int bit) { sum += s.length_m[idx(64 * b.word + bit)]; });
-        }
-    }
-    return sum;
-}
-
-// The same in pieces, where all count alike.
-double counts_of_lists(const Sets& s) {
-    std::int64_t sum = 0;
-    for (std::int32_t r = 0; r < s.rows(); ++r) {
-        for (const std::int32_t p : s.list(r)) sum += 1 - s.covered[idx(p)];
-    }
-    return static_cast<double>(sum);
-}
-double counts_of_blocks(const Sets& s) {
-    std::int64_t sum = 0;
-    for (std::int32_t r = 0; r < s.rows(); ++r) {
-        for (const Block& b : s.blocks(r)) {
-            sum += std::popcount(b.bits & ~s.covered_bits[idx(b.word)]);
-        }
-    }
-    return static_cast<double>(sum);
-}
-
-// Domination: how many of the pairs' first rows lie within the second.
-double within_of_lists(const Sets& s) {
-    std::int64_t sum = 0;
-    for (const auto& [a, b] : s.pairs) {
-        const auto whole = s.list(b);
-        auto at = whole.begin();
-        bool within = true;
-        for (const std::int32_t p : s.list(a)) {
-            while (at != whole.end() && *at < p) ++at;
-            if (at == whole.end() || *at != p) {
-                within = false;
-                break;
-            }
-        }
-        sum += within ? 1 : 0;
-    }
-    return static_cast<double>(sum);
-}
-double within_of_blocks(const Sets& s) {
-    std::int64_t sum = 0;
-    for (const auto& [a, b] : s.pairs) {
-        const auto whole = s.blocks(b);
-        auto at = whole.begin();
-        bool within = true;
-        for (const Block& part : s.blocks(a)) {
-            while (at != whole.end() && at->word < part.word) ++at;
-            if (at == whole.end() || at->word != part.word || (part.bits & ~at->bits) != 0) {
-                within = false;
-                break;
-            }
-        }
-        sum += within ? 1 : 0;
-    }
-    return static_cast<double>(sum);
-}
-
-// Ruin and recreate: each row comes and goes; of each piece one has to know how many cover it.
-double cover_of_lists(const Sets& s) {
-    std::vector<std::int32_t> cover(s.length_m.size(), 0);
-    std::int64_t bared = 0;
-    for (std::int32_t r = 0; r < s.rows(); ++r) {
-        for (const std::int32_t p : s.list(r)) ++cover[idx(p)];
-        const std::int32_t gone = r - 16;
-        if (gone < 0) continue;
-        for (const std::int32_t p : s.list(gone)) bared += --cover[idx(p)] == 0 ? 1 : 0;
-    }
-    return static_cast<double>(bared);
-}
-double cover_of_blocks(const Sets& s) {
-    std::vector<std::int32_t> cover(s.length_m.size(), 0);
-    std::int64_t bared = 0;
-    for (std::int32_t r = 0; r < s.rows(); ++r) {
-        for (const Block& b : s.blocks(r)) {
-            each_bit(b.bits, [&](int bit) { ++cover[idx(64 * b.word + bit)]; });
-        }
-        const std::int32_t gone = r - 16;
-        if (gone < 0) continue;
-        for (const Block& b : s.blocks(gone)) {
-            each_bit(b.bits,
-                     [&](int bit) { bared += --cover[idx(64 * b.word + bit)] == 0 ? 1 : 0; });
-        }
-    }
-    return static_cast<double>(bared);
-}
-
-using Work = double (*)(const Sets&);
-
-void run(benchmark::State& state, const std::string& site, Work work, Work other) {
-    const Sets* s = sets(site);
-    if (s == nullptr) return state.SkipWithError("the site's data are not there");
-    const double want = other(*s);
-    // Sums of lengths are taken in the same order: blocks ascend as lists do.
-    for (auto _ : state) {
-        if (work(*s) != want) return state.SkipWithError("lists and blocks differ");
-    }
-    const auto entries = static_cast<double>(s->piece.size());
+void run(benchmark::State& state, const std::string& site, const std::string& kind,
+         const Form& form, Work lists) {
+    const Sets* s = sets(site, kind);
+    if (s == nullptr) return state.SkipWithError("no data of this site");
+    const std::string name = form.name;
+    if (name == "dense" && s->dense.empty()) return state.SkipWithError("no data: too large");
+    if (form.work(*s) != lists(*s)) return state.SkipWithError("another result than lists give");
+    for (auto _ : state) benchmark::DoNotOptimize(form.work(*s));
+    const auto entries = static_cast<double>(s->lists.to.size());
+    const auto blocks = static_cast<double>(s->blocks.word.size());
+    state.counters["sets"] = s->lists.size();
     state.counters["entries"] = entries;
-    state.counters["pieces_a_block"] = entries / static_cast<double>(s->block.size());
-    state.counters["block_bytes_a_list_byte"] = static_cast<double>(s->block.size()) *
-                                                (sizeof(std::int32_t) + sizeof(std::uint64_t)) /
-                                                (entries * sizeof(std::int32_t));
+    state.counters["fill"] = entries / blocks;
+    state.counters["bytes_an_entry"] = name == "dense"
+                                           ? 8 * static_cast<double>(s->dense.size()) / entries
+                                       : name == "blocks" ? 12 * blocks / entries
+                                                          : 4;
 }
 
-#define VFPLAN_SETS(name)                                                                 \
-    void name##_lists(benchmark::State& state, const std::string& site) {                 \
-        run(state, site, name##_of_lists, name##_of_blocks);                              \
-    }                                                                                     \
-    void name##_blocks(benchmark::State& state, const std::string& site) {                \
-        run(state, site, name##_of_blocks, name##_of_lists);                              \
-    }                                                                                     \
-    BENCHMARK_CAPTURE(name##_lists, town, "town")->Unit(benchmark::kMicrosecond);         \
-    BENCHMARK_CAPTURE(name##_blocks, town, "town")->Unit(benchmark::kMicrosecond);        \
-    BENCHMARK_CAPTURE(name##_lists, city, "city")->Unit(benchmark::kMicrosecond);         \
-    BENCHMARK_CAPTURE(name##_blocks, city, "city")->Unit(benchmark::kMicrosecond);        \
-    BENCHMARK_CAPTURE(name##_lists, flat, "flat")->Unit(benchmark::kMicrosecond);         \
-    BENCHMARK_CAPTURE(name##_blocks, flat, "flat")->Unit(benchmark::kMicrosecond);        \
-    BENCHMARK_CAPTURE(name##_lists, bellevue, "bellevue")->Unit(benchmark::kMicrosecond); \
-    BENCHMARK_CAPTURE(name##_blocks, bellevue, "bellevue")->Unit(benchmark::kMicrosecond)
+// How long the parts of planning take that these loops lie in, once.
+void part(benchmark::State& state, const std::string& site, const std::string& what) {
+    const MainNetwork* n = main_network(site);
+    if (n == nullptr) return state.SkipWithError("no data of this site");
+    if (what == "greedy") {
+        for (auto _ : state) state.SetIterationTime(n->greedy_s);
+        return;
+    }
+    Problem free = n->problem;
+    free.block.clear();
+    free.loose.clear();
+    const Threads threads(1);
+    const bool loops = what.ends_with("loops");
+    const Problem& p = loops ? n->problem : free;
+    const Reduce how = loops ? Reduce::rows : Reduce::rows_and_columns;
+    const Reduced reduced = reduce(p, how);
+    const Choice start = reduced_choice(reduced, p.columns(), n->greedy);
+    std::size_t stations = 0;
+    for (auto _ : state) {
+        const std::clock_t before = std::clock();
+        if (what.starts_with("reduce")) {
+            benchmark::DoNotOptimize(reduce(p, how));
+        } else {
+            stations = search(threads, reduced.problem, start, {n->options.effort, 0}).size();
+        }
+        state.SetIterationTime(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
+    }
+    if (stations > 0) state.counters["stations"] = static_cast<double>(stations);
+}
 
-VFPLAN_SETS(gains);
-VFPLAN_SETS(counts);
-VFPLAN_SETS(within);
-VFPLAN_SETS(cover);
+const bool registered = [] {
+    const std::vector<std::pair<std::string, std::vector<Form>>> loops = {
+        {"length",
+         {{"lists", length_lists},
+          {"zeroed", length_zeroed},
+          {"blocks", length_blocks},
+          {"dense", length_dense}}},
+        {"count", {{"lists", count_lists}, {"blocks", count_blocks}, {"dense", count_dense}}},
+        {"subset", {{"lists", subset_lists}, {"blocks", subset_blocks}, {"dense", subset_dense}}},
+        {"change", {{"lists", change_lists}, {"blocks", change_blocks}}},
+        {"cover", {{"lists", cover_lists}, {"blocks", cover_blocks}}}};
+    for (const std::string site : {"town", "bellevue", "office", "allegheny"}) {
+        for (const std::string kind : {"table", "network", "reduced", "rows"}) {
+            for (const auto& [loop, forms] : loops) {
+                if (kind == "rows" && loop != "subset") continue;
+                for (const Form& form : forms) {
+                    benchmark::RegisterBenchmark(
+                        fmt::format("sets_{}/{}/{}/{}", loop, site, kind, form.name).c_str(),
+                        [=, lists = forms.front().work](benchmark::State& state) {
+                            run(state, site, kind, form, lists);
+                        })
+                        ->Unit(benchmark::kMillisecond);
+                }
+            }
+        }
+        for (const std::string what :
+             {"greedy", "reduce", "reduce_loops", "search", "search_loops"}) {
+            benchmark::RegisterBenchmark(fmt::format("sets_plan/{}/{}", site, what).c_str(),
+                                         [=](benchmark::State& state) { part(state, site, what); })
+                ->Unit(benchmark::kMillisecond)
+                ->UseManualTime()
+                ->Iterations(1);
+        }
+    }
+    return true;
+}();
 
 }  // namespace
 }  // namespace vfplan::bench
