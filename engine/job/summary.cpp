@@ -186,7 +186,8 @@ std::string plan_text(const Planned& p, const CoverageTables& t, const Config& c
     if (p.report.survival) {
         out += fmt::format(
             "survives     the loss of any one station, but for {} pieces ({:.1f} m) that one "
-            "candidate alone sees and {} stations without which no plan hangs together\n",
+            "candidate alone sees and {} stations that part it where the candidates have no other "
+            "way\n",
             p.report.survival->pieces_alone, p.report.survival->length_alone_m,
             m.articulation_stations);
     }

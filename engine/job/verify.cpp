@@ -282,8 +282,8 @@ void check_bound(const CoverageTables& t, const CoverageEntries& entries, const 
                                  found.wrong.front()));
     if (!survives || !found.wrong.empty()) return;
     checks.add(true, fmt::format("without any one station all is covered but {} pieces that one "
-                                 "candidate alone sees, and connected but for {} stations that "
-                                 "no plan can do without",
+                                 "candidate alone sees, and connected but for {} stations where "
+                                 "the candidates have no other way",
                                  found.pieces_alone, found.parting));
 }
 
