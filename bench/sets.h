@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/search/sparse.h"
+#include "engine/graphs/sparse.h"
 
 namespace vfplan::bench {
 

@@ -1,19 +1,19 @@
 #include "engine/graphs/blocks.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace vfplan {
 
 // Lowest-reachable numbering (Tarjan), without recursion: what a child cannot leave upwards but
 // through its parent is a block with it.
-NodeBlocks find_blocks(std::span<const std::int64_t> begin, std::span<const std::int32_t> to,
-                       std::int32_t* parts) {
-    const std::size_t n = begin.size() - 1;
-    NodeBlocks out;
+Sparse find_blocks(const Sparse& near, std::int32_t* parts) {
+    const auto n = idx(near.size());
+    Sparse out;
     std::vector<std::int32_t> order(n, -1);
     std::vector<std::int32_t> low(n, 0);
     std::vector<std::int32_t> parent(n, -1);
-    std::vector<std::int64_t> next(begin.begin(), begin.end() - 1);
+    std::vector<std::int64_t> next(near.begin.begin(), near.begin.end() - 1);
     std::vector<std::int32_t> stack;
     std::vector<std::int32_t> open;  // met, in no block yet
     std::int32_t clock = 0;
@@ -25,8 +25,8 @@ NodeBlocks find_blocks(std::span<const std::int64_t> begin, std::span<const std:
         stack.push_back(static_cast<std::int32_t>(root));
         while (!stack.empty()) {
             const std::int32_t v = stack.back();
-            if (next[idx(v)] < begin[idx(v) + 1]) {
-                const std::int32_t w = to[idx(next[idx(v)]++)];
+            if (next[idx(v)] < near.begin[idx(v) + 1]) {
+                const std::int32_t w = near.to[idx(next[idx(v)]++)];
                 if (order[idx(w)] < 0) {
                     parent[idx(w)] = v;
                     order[idx(w)] = low[idx(w)] = clock++;
@@ -42,13 +42,13 @@ NodeBlocks find_blocks(std::span<const std::int64_t> begin, std::span<const std:
             if (p < 0) continue;
             low[idx(p)] = std::min(low[idx(p)], low[idx(v)]);
             if (low[idx(v)] < order[idx(p)]) continue;
-            out.node.push_back(p);
+            out.to.push_back(p);
             for (std::int32_t w = -1; w != v;) {
                 w = open.back();
                 open.pop_back();
-                out.node.push_back(w);
+                out.to.push_back(w);
             }
-            out.begin.push_back(static_cast<std::int64_t>(out.node.size()));
+            out.end_list();
         }
     }
     if (parts != nullptr) *parts = roots;

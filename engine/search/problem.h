@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/search/sparse.h"
+#include "engine/graphs/sparse.h"
 
 namespace vfplan {
 

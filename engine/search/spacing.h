@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "engine/search/sparse.h"
+#include "engine/graphs/sparse.h"
 #include "kernels/vec.h"
 
 namespace vfplan {

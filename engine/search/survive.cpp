@@ -22,12 +22,11 @@ public:
           place_(idx(p_.columns()), -1),
           gain_(idx(p_.columns()), 0),
           met_(idx(p_.columns()), 0) {
-        const NodeBlocks blocks = find_blocks(p_.near.begin, p_.near.to);
-        Sparse members{blocks.begin, blocks.node};
+        const Sparse blocks = find_blocks(p_.near);
         for (std::int32_t b = 0; b < blocks.size(); ++b) {
             block_size_.push_back(static_cast<std::int32_t>(blocks.of(b).size()));
         }
-        blocks_of_ = transposed(members, p_.columns());
+        blocks_of_ = transposed(blocks, p_.columns());
         for (const std::int32_t c : start) c_.add(c);
     }
 
@@ -195,14 +194,13 @@ private:
         for (std::size_t i = 0; i < chosen.size(); ++i) {
             place_[idx(chosen[i])] = static_cast<std::int32_t>(i);
         }
-        begin_.assign(1, 0);
-        to_.clear();
+        Sparse links;
         for (const std::int32_t c : chosen) {
-            for (const std::int32_t n : c_.links(c)) to_.push_back(place_[idx(n)]);
-            begin_.push_back(static_cast<std::int64_t>(to_.size()));
+            for (const std::int32_t n : c_.links(c)) links.to.push_back(place_[idx(n)]);
+            links.end_list();
         }
-        blocks_ = find_blocks(begin_, to_, &parts_);
-        for (std::int32_t& v : blocks_.node) v = chosen[idx(v)];
+        blocks_ = find_blocks(links, &parts_);
+        for (std::int32_t& v : blocks_.to) v = chosen[idx(v)];
         of_graph_.clear();
         for (std::int32_t b = 0; b < blocks_.size(); ++b) {
             of_graph_.push_back(shared_block(blocks_.of(b)[0], blocks_.of(b)[1]));
@@ -289,9 +287,7 @@ private:
     Sparse blocks_of_;  // the graph's, by column
     std::vector<std::int32_t> block_size_;
     std::vector<std::int32_t> place_;  // of columns, among the chosen
-    std::vector<std::int64_t> begin_;  // the plan as a graph
-    std::vector<std::int32_t> to_;
-    NodeBlocks blocks_;  // the plan's, in columns
+    Sparse blocks_;                    // the plan's, in columns
     std::vector<std::int32_t> of_graph_;
     std::int32_t parts_ = 0;
     std::vector<double> gain_;

@@ -38,20 +38,19 @@ TEST(NodeBlocks, AreWhatNoSingleNodeParts) {
                 links[idx(a)][idx(b)] = links[idx(b)][idx(a)] = random() % sparse == 0 ? 1 : 0;
             }
         }
-        std::vector<std::int64_t> begin = {0};
-        std::vector<std::int32_t> to;
+        Sparse near;
         int parts = 0;
         for (int a = 0; a < n; ++a) {
             bool first = true;
             for (int b = 0; b < n; ++b) {
-                if (links[idx(a)][idx(b)] != 0) to.push_back(b);
+                if (links[idx(a)][idx(b)] != 0) near.to.push_back(b);
                 if (b < a && path(links, a, b, -1)) first = false;
             }
             parts += first ? 1 : 0;
-            begin.push_back(static_cast<std::int64_t>(to.size()));
+            near.end_list();
         }
         std::int32_t counted = 0;
-        const NodeBlocks blocks = find_blocks(begin, to, &counted);
+        const Sparse blocks = find_blocks(near, &counted);
         EXPECT_EQ(counted, parts) << "round " << round;
         std::set<std::pair<int, int>> together;
         for (std::int32_t k = 0; k < blocks.size(); ++k) {

@@ -1,4 +1,4 @@
-#include "engine/search/sparse.h"
+#include "engine/graphs/sparse.h"
 
 #include <numeric>
 
