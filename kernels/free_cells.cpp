@@ -4,14 +4,6 @@
 #include <cmath>
 
 namespace vfplan {
-namespace {
-
-std::int32_t cell_index(double metres, double cell_m, std::int32_t count) {
-    const double i = std::floor(metres / cell_m);
-    return static_cast<std::int32_t>(std::clamp(i, 0.0, static_cast<double>(count - 1)));
-}
-
-}  // namespace
 
 Grid make_grid(const Box& extent, double cell_m, double snap_m) {
     Grid grid;
@@ -109,21 +101,10 @@ Raster<std::uint8_t> cells_near_walls(const Grid& grid, const std::vector<Wall>&
                                       double clearance_m) {
     Raster<std::uint8_t> near(static_cast<std::size_t>(grid.size()), 0);
     if (clearance_m <= 0) return near;
-    const Vec2d reach(clearance_m, clearance_m);
     for (const Wall& wall : walls) {
-        const Vec2d lo = wall.a.cwiseMin(wall.b) - reach - grid.origin;
-        const Vec2d hi = wall.a.cwiseMax(wall.b) + reach - grid.origin;
-        const Vec2d e = wall.b - wall.a;
-        for (std::int32_t iy = cell_index(lo.y(), grid.cell_m, grid.ny);
-             iy <= cell_index(hi.y(), grid.cell_m, grid.ny); ++iy) {
-            for (std::int32_t ix = cell_index(lo.x(), grid.cell_m, grid.nx);
-                 ix <= cell_index(hi.x(), grid.cell_m, grid.nx); ++ix) {
-                const std::int64_t cell = grid.id(ix, iy);
-                const Vec2d p = grid.centre(cell) - wall.a;
-                const double t = std::clamp(p.dot(e) / e.squaredNorm(), 0.0, 1.0);
-                if ((p - t * e).norm() < clearance_m) near[static_cast<std::size_t>(cell)] = 1;
-            }
-        }
+        each_cell_near(
+            grid, wall, clearance_m, [](std::int64_t) { return true; },
+            [&](std::int64_t cell, const Vec2d&) { near[static_cast<std::size_t>(cell)] = 1; });
     }
     return near;
 }

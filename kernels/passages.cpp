@@ -10,13 +10,6 @@
 namespace vfplan {
 namespace {
 
-// From the place to the nearest of the wall.
-Vec2d way_to(const Wall& wall, const Vec2d& at) {
-    const Vec2d e = wall.b - wall.a;
-    const Vec2d p = at - wall.a;
-    return std::clamp(p.dot(e) / e.squaredNorm(), 0.0, 1.0) * e - p;
-}
-
 class Passages {
 public:
     Passages(const Grid& grid, const Raster<std::uint8_t>& free, const Raster<std::uint8_t>& near,
@@ -58,22 +51,9 @@ private:
     // Calls f(cell, way to the wall) for those that are free and near to walls, this one so far.
     template <class F>
     void each_in_reach(const Wall& wall, double reach_m, F f) const {
-        const Vec2d reach(reach_m, reach_m);
-        const Vec2d lo = (wall.a.cwiseMin(wall.b) - reach - grid_.origin) / grid_.cell_m;
-        const Vec2d hi = (wall.a.cwiseMax(wall.b) + reach - grid_.origin) / grid_.cell_m;
-        const auto from = [](double v) { return static_cast<std::int32_t>(std::max(0.0, v)); };
-        const auto to = [](double v, std::int32_t n) {
-            return static_cast<std::int32_t>(std::min(v, n - 1.0));
-        };
-        if (hi.x() < 0 || hi.y() < 0) return;
-        for (std::int32_t iy = from(lo.y()); iy <= to(hi.y(), grid_.ny); ++iy) {
-            for (std::int32_t ix = from(lo.x()); ix <= to(hi.x(), grid_.nx); ++ix) {
-                const std::int64_t cell = grid_.id(ix, iy);
-                if (free_[idx(cell)] == 0 || near_[idx(cell)] == 0) continue;
-                const Vec2d way = way_to(wall, grid_.centre(cell));
-                if (way.norm() < reach_m) f(cell, way);
-            }
-        }
+        each_cell_near(
+            grid_, wall, reach_m,
+            [&](std::int64_t cell) { return free_[idx(cell)] != 0 && near_[idx(cell)] != 0; }, f);
     }
 
     // Keeps the wall that stands most opposite to the cell's nearest one.
