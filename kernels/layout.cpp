@@ -84,6 +84,12 @@ Layout make_layout(const Grid& grid, double range_max_m, std::int64_t tile_cells
     return out;
 }
 
+Layout in_blocks(Layout layout, std::int32_t least_cells) {
+    constexpr std::int32_t step = 4;
+    layout.tile_cells = std::max(layout.tile_cells, (least_cells + step - 1) / step * step);
+    return layout;
+}
+
 double eye_margin_m(double partition_m) { return partition_m + 1; }
 
 double wall_reach_m(double range_max_m, double partition_m, double snap_m) {

@@ -50,6 +50,10 @@ struct Layout {
 // A patch is six ranges wide: the walls around it are then at most as many again as those in it.
 Layout make_layout(const Grid& grid, double range_max_m, std::int64_t tile_cells);
 
+// The same in tiles of so many cells at least, for work that has to look far around each: where
+// cells are small, nearly all of it would be done around tiles.
+Layout in_blocks(Layout layout, std::int32_t least_cells);
+
 // How far beyond its patch an eye may stand and still be looked from in its scene: rescue looks
 // from points before the pieces of the patch's walls.
 double eye_margin_m(double partition_m);

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/joining/knowledge.h"
+#include "engine/joining/row_store.h"
 #include "kernels/index.h"
 
 namespace vfplan {
@@ -243,18 +244,10 @@ bool disputed(const CoverageRow& row, const DisputeRound& round) {
     return false;
 }
 
-// Pieces of a row as first and number of those that follow each other: the pieces of a wall mostly
-// do, and rows of all cells are kept.
-std::vector<std::int32_t> runs_of(const CoverageRow& row) {
-    std::vector<std::int32_t> out;
-    for (const Seen& s : row) {
-        if (!out.empty() && s.piece == out[out.size() - 2] + out.back()) {
-            ++out.back();
-        } else {
-            out.push_back(s.piece);
-            out.push_back(1);
-        }
-    }
+// Rows of all cells are kept, so in runs.
+std::vector<PieceRun> runs_of(const CoverageRow& row) {
+    std::vector<PieceRun> out;
+    for (const Seen& s : row) add_piece(s.piece, 0, out);
     out.shrink_to_fit();
     return out;
 }
@@ -266,7 +259,7 @@ std::vector<std::int64_t> looked_from(const TableJob& job, const DisputeRound& r
     constexpr std::size_t at_once = 4096;
     const bool by_angle = formula(rule.ratio).by_angle;
     std::vector<std::int64_t> out;
-    std::set<std::vector<std::int32_t>> rows_seen;
+    std::set<std::vector<PieceRun>> rows_seen;
     for (std::size_t from = 0; from < cells.size(); from += at_once) {
         const std::size_t to = std::min(cells.size(), from + at_once);
         std::vector<Vec2d> eyes;
@@ -315,12 +308,7 @@ std::vector<std::int64_t> disputed_cells(const TableJob& job, const SiteStore& s
 
 }  // namespace
 
-Layout dispute_blocks(const TableJob& job) {
-    Layout out = job.layout();
-    constexpr std::int32_t step = 4;
-    out.tile_cells = std::max(out.tile_cells, (margin_cells(job) + step - 1) / step * step);
-    return out;
-}
+Layout dispute_blocks(const TableJob& job) { return in_blocks(job.layout(), margin_cells(job)); }
 
 void make_disputed(const TableJob& job, const std::vector<ShardNames>& rounds,
                    const SiteStore& site, const FieldTiles& field, const DisputeRound& round,

@@ -12,6 +12,7 @@
 #include "kernels/index.h"
 
 namespace vfplan {
+
 ShardNames shards_of_round(const TableJob& job, int round) {
     return job.passing("disputed", fmt::format("-{}", round));
 }
@@ -166,12 +167,11 @@ const Leader::State& Leader::state(int round) {
     return s;
 }
 
-Leader::Known Leader::known_of(std::unique_ptr<const State> before,
-                               std::vector<double>& length_m) const {
+Leader::Known Leader::known_of(std::unique_ptr<State> before, std::vector<double>& length_m) const {
     Known out;
     if (!before) return out;
-    out.cells = before->cells;
-    out.twins = before->twins;
+    out.cells = std::move(before->cells);
+    out.twins = std::move(before->twins);
     out.rows = PackedRows(before->local.rows, static_cast<std::int32_t>(before->component.size()),
                           before->first_piece);
     std::copy(before->local.piece_length_m.begin(), before->local.piece_length_m.end(),

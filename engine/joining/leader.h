@@ -66,7 +66,7 @@ private:
         PackedRows rows;  // of the cells
     };
     // Notes the lengths of pieces.
-    Known known_of(std::unique_ptr<const State> before, std::vector<double>& length_m) const;
+    Known known_of(std::unique_ptr<State> before, std::vector<double>& length_m) const;
     // Of the state's cells, in the site's numbering, without angles where overlap goes by length;
     // of cells with equal rows the first stays then. Notes the lengths of pieces. What is known
     // before is not looked at again.

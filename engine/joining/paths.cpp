@@ -40,20 +40,14 @@ std::int32_t margin_cells(const TableJob& job) {
     return static_cast<std::int32_t>(std::ceil(reach_cells(job))) + 1;
 }
 
-// The grid in blocks. Around each is looked as far as a path may reach: where cells are small, that
-// is many tiles, and a block takes half as many, or nearly all work would be done around them.
-Layout in_blocks(const TableJob& job) {
-    Layout out = job.layout();
-    constexpr std::int32_t step = 4;
-    out.tile_cells = std::max(out.tile_cells, (margin_cells(job) / 2 + step - 1) / step * step);
-    return out;
-}
+// Around each block is looked as far as a path may reach: half of that wide, it is not much work.
+Layout path_blocks(const TableJob& job) { return in_blocks(job.layout(), margin_cells(job) / 2); }
 
 // The paths that meet in a block's cells.
 std::vector<ShortestPath> paths_of_block(const TableJob& job, const FieldTiles& tiles,
                                          const CandidateList& candidates,
                                          const Components& components, std::int64_t block) {
-    const Layout layout = in_blocks(job);
+    const Layout layout = path_blocks(job);
     const Window core = layout.tile_window(block);
     const Window around = core.grown(margin_cells(job), layout.grid);
     const CandidateList::Part list = candidates.in(around);
@@ -127,7 +121,7 @@ std::vector<ShortestPath> make_paths(const TableJob& job, const FieldTiles& fiel
                                      const CandidateList& candidates,
                                      const Components& components) {
     if (components.count() < 2) return {};
-    const std::int64_t blocks = in_blocks(job).tiles();
+    const std::int64_t blocks = path_blocks(job).tiles();
     const ShardNames names = job.passing("paths");
     make_shards(job, names, blocks, [&](std::int64_t block, const std::filesystem::path& path) {
         write_paths(path, job.key, paths_of_block(job, field, candidates, components, block));

@@ -43,11 +43,8 @@ void keep(const std::vector<bool>& kept, OverlapRows& rows) {
 
 PackedRows::PackedRows(const OverlapRows& rows, std::int32_t from, std::int32_t first_piece) {
     for (std::int32_t r = from; r < rows.size(); ++r) {
-        std::int32_t next = -1;
         for (const std::int32_t piece : rows.row(r)) {
-            if (piece != next) runs_.push_back({piece + first_piece, 0});
-            ++runs_.back().count;
-            next = piece + 1;
+            add_piece(piece + first_piece, begin_.back(), runs_);
         }
         begin_.push_back(runs_.size());
     }

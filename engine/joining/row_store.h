@@ -1,6 +1,7 @@
 // Rows of cells in bulk: appended, thinned out and packed without a second copy.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,8 +19,21 @@ void append(OverlapRows more, OverlapRows& rows);
 // Drops the rows without kept[row], in place. They have no angles.
 void keep(const std::vector<bool>& kept, OverlapRows& rows);
 
-// Rows in runs of pieces that follow each other, as most do: a fraction of their size. Angles are
-// kept as they are.
+// Pieces that follow each other, as those of a wall that are seen mostly do.
+struct PieceRun {
+    std::int32_t first = 0;
+    std::int32_t count = 0;
+    auto operator<=>(const PieceRun&) const = default;
+};
+// Appends the next piece of a row whose runs begin at `row`.
+inline void add_piece(std::int32_t piece, std::size_t row, std::vector<PieceRun>& runs) {
+    if (runs.size() == row || runs.back().first + runs.back().count != piece) {
+        runs.push_back({piece, 0});
+    }
+    ++runs.back().count;
+}
+
+// Rows in runs: a fraction of their size. Angles are kept as they are.
 class PackedRows {
 public:
     PackedRows() = default;
@@ -29,11 +43,7 @@ public:
     void unpack(std::size_t row, OverlapRows& to) const;
 
 private:
-    struct Run {
-        std::int32_t first;
-        std::int32_t count;
-    };
-    std::vector<Run> runs_;
+    std::vector<PieceRun> runs_;
     std::vector<std::size_t> begin_ = {0};
     std::vector<float> angle_rad_;
     std::vector<std::size_t> entry_;  // of each row's first angle
