@@ -74,7 +74,7 @@ Lists ranked_components(const OverlapRows& rows, const std::vector<double>& leng
 }  // namespace
 
 RunCheck check_plan(const CoverageTables& t, const CoverageEntries& entries, const PlanTable& table,
-                    const Certificate& certificate, bool survives) {
+                    const Certificate& certificate) {
     const bool by_angle = formula(table.overlap.ratio).by_angle;
     const OverlapRows rows{t.begin, entries.pieces(0, t.entries()),
                            by_angle ? entries.angles_rad(0, t.entries()) : std::vector<float>()};
@@ -154,7 +154,7 @@ RunCheck check_plan(const CoverageTables& t, const CoverageEntries& entries, con
             }
         }
         found += stations;
-        if (survives) {
+        if (table.survives) {
             const Survival lost = check_survival({networks[k], chosen, near, rows, owner, mine});
             out.pieces_alone += lost.pieces_alone;
             out.parting += lost.parting;

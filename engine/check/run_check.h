@@ -21,9 +21,10 @@ struct RunCheck {
 };
 
 // Links, networks and what each has to cover anew from the rows; then whether each network of the
-// plan covers that and hangs together, and whether each proof proves its bound; `survives`: and
-// whether it stands the loss of any one station (check_survival). Memory as planning.
+// plan covers that and hangs together, and whether each proof proves its bound; where the plan
+// says that it survives, also whether it stands the loss of any one station (check_survival).
+// Memory as planning.
 RunCheck check_plan(const CoverageTables& tables, const CoverageEntries& entries,
-                    const PlanTable& plan, const Certificate& certificate, bool survives = false);
+                    const PlanTable& plan, const Certificate& certificate);
 
 }  // namespace vfplan

@@ -87,7 +87,7 @@ std::string plan_of(const RunDir& dir, const Config& config, const Threads& thre
                                           options, config.scanner.range_max_m, threads, progress);
     progress.stage("files");
     write_plan(dir.file("plan.h5"),
-               {planned.plan, tables.key, options.overlap, options.candidates});
+               {planned.plan, tables.key, options.overlap, options.candidates, options.survive});
     write_outputs(dir, config.output.formats,
                   {field, tables, planned.plan, config.site.input.filename().string(),
                    plan_line(planned), static_cast<int>(config.output.map_px)});

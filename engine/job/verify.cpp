@@ -271,8 +271,8 @@ void check_rays(const std::vector<double>& error, Checks& checks) {
 }
 
 void check_bound(const CoverageTables& t, const CoverageEntries& entries, const PlanTable& table,
-                 bool survives, Checks& checks) {
-    const RunCheck found = check_plan(t, entries, table, table.plan.certificate, survives);
+                 Checks& checks) {
+    const RunCheck found = check_plan(t, entries, table, table.plan.certificate);
     checks.add(found.wrong.empty(),
                found.wrong.empty()
                    ? fmt::format("at least {} stations are needed over these {} candidates: the "
@@ -280,7 +280,7 @@ void check_bound(const CoverageTables& t, const CoverageEntries& entries, const 
                                  found.bound, t.candidates.size(), found.networks)
                    : fmt::format("the certificate's bound of {} stations: {}", found.bound,
                                  found.wrong.front()));
-    if (!survives || !found.wrong.empty()) return;
+    if (!table.survives || !found.wrong.empty()) return;
     checks.add(true, fmt::format("without any one station all is covered but {} pieces that one "
                                  "candidate alone sees, and connected but for {} stations where "
                                  "the candidates have no other way",
@@ -358,7 +358,7 @@ VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Pro
     progress.stage("field");
     check_field(scenes, threads, field, table.plan, config.visibility.kernel, checks);
     check_rays(found.ray_difference, checks);
-    check_bound(t, entries, table, config.plan.survive > 0, checks);
+    check_bound(t, entries, table, checks);
     check_site(config, t, field, checks);
     progress.finish();
     return checks.result();

@@ -21,6 +21,7 @@ std::int64_t Ears::close(double most_columns) {
             std::erase_if(links,
                           [&](std::int32_t n) { return p_.block[idx(n)] != p_.block[idx(v)]; });
         }
+        if (links.empty()) continue;  // a node of a window that lost all else
         ear_.clear();
         if (at_any_cost) {
             for (const std::int32_t n : links) find(v, n);

@@ -15,6 +15,7 @@ void write_plan(const std::filesystem::path& path, const PlanTable& t) {
     file.attribute("/", "overlap_ratio", std::string(name_of(t.overlap.ratio)));
     file.attribute("/", "overlap_threshold", t.overlap.threshold);
     file.attribute("/", "candidates", std::string(name_of(t.pool)));
+    file.attribute("/", "survives", t.survives ? 1.0 : 0.0);
     const auto& s = t.plan.stations;
     file.group("stations");
     file.write("stations/candidate",
@@ -68,6 +69,8 @@ PlanTable read_plan(const std::filesystem::path& path) {
     const auto pool = std::find(pools.begin(), pools.end(), file.text("/", "candidates"));
     if (pool == pools.end()) damaged(path, "no candidates are called so");
     t.pool = static_cast<CandidatePool>(pool - pools.begin());
+    // Plans of before this was a wish have it not.
+    t.survives = file.has_attribute("/", "survives") && file.number("/", "survives") != 0;
     const auto candidate = file.read<std::int32_t>("stations/candidate");
     const auto network = file.read<std::int32_t>("stations/component");
     const auto order = file.read<std::int32_t>("stations/order");

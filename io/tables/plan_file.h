@@ -14,6 +14,7 @@ struct PlanTable {
     std::string key;  // of the coverage table that it was made from
     OverlapRule overlap;
     CandidatePool pool = CandidatePool::axis;
+    bool survives = false;  // made to stand the loss of any one station
 };
 // Whole or not at all. Throws IoError.
 void write_plan(const std::filesystem::path& path, const PlanTable& table);

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <sstream>
 
+#include "io/tables/plan_file.h"
 #include "program.h"
 
 namespace vfplan::test {
@@ -119,12 +120,21 @@ TEST_F(Wishes, APlanThatSurvivesStandsTheLossOfAnyStation) {
     const Output good = vfplan_process({"verify", scratch / "run"});
     EXPECT_EQ(good.code, 0) << good.out;
     EXPECT_NE(good.out.find("without any one station"), std::string::npos) << good.out;
-    // The plan of a job that did not ask for it.
-    std::filesystem::copy_file(scratch / "weak/plan.h5", scratch / "run/plan.h5",
-                               std::filesystem::copy_options::overwrite_existing);
+    // A plan that only says that it survives.
+    PlanTable weak = read_plan(scratch / "weak/plan.h5");
+    weak.survives = true;
+    write_plan(scratch / "run/plan.h5", weak);
     const Output bad = vfplan_process({"verify", scratch / "run"});
     EXPECT_EQ(bad.code, 1) << bad.out;
     EXPECT_NE(bad.out.find("need not"), std::string::npos) << bad.out;
+    // Whoever plans a run anew may wish for something else than its job did.
+    for (const std::string wish : {"0", "1"}) {
+        vfplan_expect(0, {"plan", scratch / "run", "--set", "plan.survive=" + wish, "--quiet"});
+        const Output again = vfplan_process({"verify", scratch / "run"});
+        EXPECT_EQ(again.code, 0) << again.out;
+        EXPECT_EQ(again.out.find("without any one station") != std::string::npos, wish == "1")
+            << again.out;
+    }
 }
 
 TEST_F(Wishes, ShortcutsMakeWaysShorter) {

@@ -112,5 +112,47 @@ TEST(Window, CountsLooseStationsAsTheWholeDoes) {
     EXPECT_GT(different, 50U);
 }
 
+// 0 and 1 cover all; 2 and 3 do nothing but close a cycle with 0. Where both are dropped at once,
+// one node without any link is left of their window.
+TEST(Window, MayLoseAllItsStations) {
+    Problem whole;
+    whole.rows_of = {{0, 1, 2, 2, 2, 2}, {0, 1}};
+    whole.columns_of = transposed(whole.rows_of, 2);
+    whole.near = {{0, 4, 6, 8, 10, 12}, {1, 2, 3, 4, 0, 4, 0, 3, 0, 2, 0, 1}};
+    whole.fixed.assign(5, 0);
+    count_cycles(whole);
+    Choosing plan(whole);
+    for (std::int32_t c = 0; c < 4; ++c) plan.add(c);
+    const Window w = make_window(whole, plan, {2, 3});
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        SCOPED_TRACE(seed);
+        ASSERT_TRUE(is_plan(w.problem, improve(w.problem, w.start, {20, seed, seed % 2 == 0})));
+    }
+}
+
+TEST(Window, IsMadeBetterWithoutLossToTheWhole) {
+    std::size_t empty = 0;
+    std::size_t better = 0;
+    for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+        SCOPED_TRACE(seed);
+        Problem whole = random_problem(seed, 15, 10, seed % 3 == 0);
+        count_cycles(whole);
+        Dice dice(seed);
+        const Cut cut(whole, dice);
+        const Window w = make_window(whole, cut.plan, cut.stations);
+        const Choice found = improve(w.problem, w.start, {20, seed, false});
+        const Choice then = cut.with(w, found);
+        ASSERT_TRUE(is_plan(whole, then));
+        const auto cost = [&](const Choice& c) {
+            return static_cast<std::int64_t>(c.size()) + 2 * off_cycles(whole, c);
+        };
+        ASSERT_LE(cost(then), cost(cut.plan.choice()));
+        better += cost(then) < cost(cut.plan.choice()) ? 1 : 0;
+        empty += found.size() == 1 && w.column[idx(found.front())] < 0 ? 1 : 0;
+    }
+    EXPECT_GT(better, 1000U);
+    EXPECT_GT(empty, 20U);
+}
+
 }  // namespace
 }  // namespace vfplan
