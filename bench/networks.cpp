@@ -81,7 +81,8 @@ MainNetwork made(const Scene& site, const std::filesystem::path& dir) {
     out.greedy = columns_of(members, choose_greedily(in, members, {}, wanted, work));
     out.greedy_s = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
     NetworkProblems problems(in);
-    out.problem = problems.of(members, owner, 0, std::vector<std::uint8_t>(idx(graph.size()), 0));
+    out.problem = problems.of(members, owner, 0, std::vector<std::uint8_t>(idx(graph.size()), 0),
+                              ProblemRows::all);
     for (const std::int32_t p : problems.pieces()) {
         out.row_length_m.push_back(t.piece_length_m[idx(p)]);
     }

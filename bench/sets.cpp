@@ -103,7 +103,7 @@ const Sets* sets(const std::string& site, const std::string& kind) {
         s = std::make_unique<Sets>(n->problem.columns_of,
                                    std::vector<double>(idx(n->problem.columns()), 1.0));
     } else {
-        const Reduced reduced = reduce(n->problem, Reduce::rows_and_columns);
+        const Reduced reduced = reduce(n->problem);
         std::vector<double> length;
         for (const std::int32_t r : reduced.row) length.push_back(n->row_length_m[idx(r)]);
         s = std::make_unique<Sets>(reduced.problem.rows_of, std::move(length));

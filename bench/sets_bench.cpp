@@ -311,17 +311,16 @@ void part(benchmark::State& state, const std::string& site, const std::string& w
     free.loose.clear();
     const Threads threads(1);
     const bool loops = what.ends_with("loops");
-    const Problem& p = loops ? n->problem : free;
-    const Reduce how = loops ? Reduce::rows : Reduce::rows_and_columns;
-    const Reduced reduced = reduce(p, how);
-    const Choice start = reduced_choice(reduced, p.columns(), n->greedy);
+    const Reduced reduced = reduce(free);
+    const Problem& p = loops ? n->problem : reduced.problem;
+    const Choice start = loops ? n->greedy : reduced_choice(reduced, free.columns(), n->greedy);
     std::size_t stations = 0;
     for (auto _ : state) {
         const std::clock_t before = std::clock();
         if (what.starts_with("reduce")) {
-            benchmark::DoNotOptimize(reduce(p, how));
+            benchmark::DoNotOptimize(reduce(free));
         } else {
-            stations = search(threads, reduced.problem, start, {n->options.effort, 0}).size();
+            stations = search(threads, p, start, {n->options.effort, 0}).size();
         }
         state.SetIterationTime(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
     }

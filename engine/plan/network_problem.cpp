@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/search/reduce.h"
+
 namespace vfplan {
 namespace {
 
@@ -55,48 +57,121 @@ private:
     std::vector<std::int32_t> touched_;
 };
 
+// Keeps the lists with these numbers, which ascend.
+void keep(const std::vector<std::int32_t>& numbers, Sparse& lists) {
+    Sparse out;
+    for (const std::int32_t i : numbers) {
+        const auto list = lists.of(i);
+        out.to.insert(out.to.end(), list.begin(), list.end());
+        out.end_list();
+    }
+    lists = std::move(out);
+}
+
 }  // namespace
 
-Problem NetworkProblems::of(const std::vector<std::int32_t>& members,
-                            const std::vector<std::int32_t>& owner, std::int32_t network,
-                            const std::vector<std::uint8_t>& fixed) {
-    const auto is_wanted = [&](std::int32_t p) { return owner[idx(p)] == network; };
-    Classes classes(class_);
-    for (const std::int32_t c : members) classes.divide(in_.rows.row(c), is_wanted);
+// Where parts begin and end: a piece belongs to the part with the first member that covers it.
+std::vector<std::size_t> NetworkProblems::parts(const Members& members) {
+    std::vector<std::int64_t> entries(members.size(), 0);  // of pieces first covered by each
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        each_piece(members[i], [&](std::int32_t p) {
+            if (class_[idx(p)] == unmet) class_[idx(p)] = static_cast<std::int32_t>(i);
+            ++entries[idx(class_[idx(p)])];
+        });
+    }
+    std::vector<std::size_t> out = {0};
+    std::int64_t sum = 0;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        each_piece(members[i], [&](std::int32_t p) { class_[idx(p)] = unmet; });
+        if (sum > 0 && sum + entries[i] > most_entries_) {
+            out.push_back(i);
+            sum = 0;
+        }
+        sum += entries[i];
+    }
+    out.push_back(members.size());
+    return out;
+}
 
+void NetworkProblems::add_part(const Members& members, std::size_t from, std::size_t to,
+                               ProblemRows rows, Sparse& columns_of) {
+    Classes classes(class_);
+    for (std::size_t i = from; i < members.size(); ++i) {
+        classes.divide(in_.rows.row(members[i]), [&](std::int32_t p) {
+            const std::int32_t known = class_[idx(p)];
+            return (known == unmet && i < to && (*owner_)[idx(p)] == network_) || known >= 0;
+        });
+    }
+    std::vector<std::int32_t> row;    // of classes
+    std::vector<std::int32_t> first;  // piece of each row
+    Problem part;
+    part.rows_of.begin.assign(from + 1, 0);
+    for (std::size_t i = from; i < members.size(); ++i) {
+        for (const std::int32_t p : in_.rows.row(members[i])) {
+            const std::int32_t known = class_[idx(p)];
+            if (known < 0) continue;
+            if (idx(known) >= row.size()) row.resize(idx(known) + 1, -1);
+            std::int32_t& mine = row[idx(known)];
+            if (mine < 0) {
+                mine = static_cast<std::int32_t>(first.size());
+                first.push_back(p);
+            }
+            if (first[idx(mine)] == p) part.rows_of.to.push_back(mine);
+        }
+        part.rows_of.end_list();
+    }
+    for (std::size_t i = from; i < to; ++i) {
+        for (const std::int32_t p : in_.rows.row(members[i])) {
+            if (class_[idx(p)] >= 0) class_[idx(p)] = done;
+        }
+    }
+    part.columns_of = transposed(part.rows_of, static_cast<std::int32_t>(first.size()));
+    const auto add = [&](std::int32_t r) {
+        const auto list = part.columns_of.of(r);
+        columns_of.to.insert(columns_of.to.end(), list.begin(), list.end());
+        columns_of.end_list();
+        piece_.push_back(first[idx(r)]);
+    };
+    if (rows == ProblemRows::needed) {
+        for (const std::int32_t r : needed_rows(part)) add(r);
+    } else {
+        for (std::int32_t r = 0; r < part.rows(); ++r) add(r);
+    }
+}
+
+Problem NetworkProblems::of(const Members& members, const std::vector<std::int32_t>& owner,
+                            std::int32_t network, const std::vector<std::uint8_t>& fixed,
+                            ProblemRows rows) {
+    owner_ = &owner;
+    network_ = network;
+    piece_.clear();
     Problem out;
-    std::vector<std::int32_t> row;  // of classes
-    std::vector<std::int32_t>& first = piece_;
-    first.clear();
+    const std::vector<std::size_t> part = parts(members);
+    for (std::size_t k = 1; k < part.size(); ++k) {
+        add_part(members, part[k - 1], part[k], rows, out.columns_of);
+    }
+    const auto columns = static_cast<std::int32_t>(members.size());
+    out.rows_of = transposed(out.columns_of, columns);
+    if (rows == ProblemRows::needed && part.size() > 2) {
+        const std::vector<std::int32_t> needed = needed_rows(out);
+        for (std::size_t r = 0; r < needed.size(); ++r) piece_[r] = piece_[idx(needed[r])];
+        piece_.resize(needed.size());
+        keep(needed, out.columns_of);
+        out.rows_of = transposed(out.columns_of, columns);
+    }
     for (std::size_t i = 0; i < members.size(); ++i) {
         column_[idx(members[i])] = static_cast<std::int32_t>(i);
     }
     for (const std::int32_t c : members) {
-        for (const std::int32_t p : in_.rows.row(c)) {
-            if (!is_wanted(p)) continue;
-            const auto mine = idx(class_[idx(p)]);
-            if (mine >= row.size()) row.resize(mine + 1, -1);
-            if (row[mine] < 0) {
-                row[mine] = static_cast<std::int32_t>(first.size());
-                first.push_back(p);
-            }
-            if (first[idx(row[mine])] == p) out.rows_of.to.push_back(row[mine]);
-        }
-        out.rows_of.end_list();
         in_.graph.each(c, [&](std::int32_t n, double) {
             if (column_[idx(n)] >= 0) out.near.to.push_back(column_[idx(n)]);
         });
         out.near.end_list();
         out.fixed.push_back(fixed[idx(c)]);
     }
-    for (std::int32_t c = 0; c < out.rows_of.size(); ++c) {
-        std::sort(out.rows_of.to.begin() + out.rows_of.begin[idx(c)],
-                  out.rows_of.to.begin() + out.rows_of.begin[idx(c) + 1]);
-    }
-    out.columns_of = transposed(out.rows_of, static_cast<std::int32_t>(first.size()));
     for (const std::int32_t c : members) {
         column_[idx(c)] = -1;
-        for (const std::int32_t p : in_.rows.row(c)) class_[idx(p)] = -1;
+        each_piece(c, [&](std::int32_t p) { class_[idx(p)] = unmet; });
     }
     return out;
 }

@@ -1,5 +1,6 @@
 #include "engine/plan/refine.h"
 
+#include <array>
 #include <numeric>
 
 #include "engine/graphs/cuts.h"
@@ -13,9 +14,10 @@
 namespace vfplan {
 namespace {
 
-Choice searched(const Threads& threads, const Problem& whole, Reduce what, const Choice& start,
+// Where cycles do not count.
+Choice searched(const Threads& threads, const Problem& whole, const Choice& start,
                 const SearchOptions& options) {
-    const Reduced reduced = reduce(whole, what);
+    const Reduced reduced = reduce(whole);
     const Choice from = reduced_choice(reduced, whole.columns(), start);
     Choice out;
     for (const std::int32_t c : search(threads, reduced.problem, from, options)) {
@@ -57,55 +59,62 @@ Sparse too_near(const PlanInput& in, const std::vector<std::int32_t>& members, d
     return nearer_than(at, spacing_m);
 }
 
+// Both plans of a network start from the same one, so that they can be searched at once; that with
+// loops takes longer, and begins first. The proof goes with the other.
+NetworkProof refine_one(const Threads& threads, const PlanInput& in, const PlanOptions& options,
+                        const Problem& problem, const NetworkProblems& problems, std::uint64_t seed,
+                        Network& network) {
+    const Choice start = columns_of(network.members, network.chosen);
+    const SearchOptions search{options.effort, seed};
+    const auto with_loops = [&] {
+        Problem p = problem;
+        p.block = find_cuts(induced(in.graph, network.members)).block;
+        p.loose.assign(idx(p.columns()), 1);
+        return settled(in, p, network.members, vfplan::search(threads, p, start, search));
+    };
+    NetworkProof proof;
+    const auto without = [&] {
+        Choice plan = searched(threads, problem, start, search);
+        if (!options.loops) plan = settled(in, problem, network.members, plan);
+        proof = fast_proof(problem, problems, network, plan);
+        return plan;
+    };
+    std::array<Choice, 2> found;
+    const std::int64_t first = options.loops ? 0 : 1;
+    threads.for_each(2 - first, 1, [&](std::int64_t from, std::int64_t to) {
+        for (std::int64_t k = from + first; k < to + first; ++k) {
+            found[idx(k)] = k == 0 ? with_loops() : without();
+        }
+    });
+    const auto chosen = [&](const Choice& plan) {
+        Chosen out;
+        for (const std::int32_t c : plan) out.push_back(network.members[idx(c)]);
+        return out;
+    };
+    network.chosen = chosen(found[idx(first)]);
+    network.connected = found[1].size() < network.chosen.size() ? chosen(found[1]) : network.chosen;
+    return proof;
+}
+
 }  // namespace
 
 Certificate refine(const Threads& threads, const PlanInput& in, const PlanOptions& options,
                    const std::vector<std::int32_t>& owner, const std::vector<std::uint8_t>& fixed,
                    std::vector<Network>& networks) {
-    // Both plans of a network start from the same one, so that they can be searched at once; that
-    // with loops takes longer, and begins first. The proof goes with the other.
     Certificate proofs;
     proofs.networks.resize(networks.size());
-    const std::int64_t plans = options.loops ? 2 : 1;
-    std::vector<Choice> found(networks.size() * idx(plans));
     threads.for_each(
-        static_cast<std::int64_t>(found.size()), 1, [&](std::int64_t from, std::int64_t to) {
+        static_cast<std::int64_t>(networks.size()), 1, [&](std::int64_t from, std::int64_t to) {
             NetworkProblems problems(in);
-            for (std::int64_t task = from; task < to; ++task) {
-                const std::int64_t n = task / plans;
-                const Network& network = networks[idx(n)];
-                Problem problem =
-                    problems.of(network.members, owner, static_cast<std::int32_t>(n), fixed);
+            for (std::int64_t n = from; n < to; ++n) {
+                Network& network = networks[idx(n)];
+                Problem problem = problems.of(network.members, owner, static_cast<std::int32_t>(n),
+                                              fixed, ProblemRows::needed);
                 problem.beside = too_near(in, network.members, options.min_spacing_m);
-                const Choice start = columns_of(network.members, network.chosen);
-                const SearchOptions search{options.effort, static_cast<std::uint64_t>(n)};
-                Choice& plan = found[idx(task)];
-                if (task % plans == plans - 2) {
-                    problem.block = find_cuts(induced(in.graph, network.members)).block;
-                    problem.loose.assign(idx(problem.columns()), 1);
-                    plan = searched(threads, problem, Reduce::rows, start, search);
-                    plan = settled(in, problem, network.members, plan);
-                } else {
-                    plan = searched(threads, problem, Reduce::rows_and_columns, start, search);
-                    if (!options.loops) {
-                        plan = settled(in, problem, network.members, plan);
-                    }
-                    proofs.networks[idx(n)] = fast_proof(problem, problems, network, plan);
-                }
+                proofs.networks[idx(n)] = refine_one(threads, in, options, problem, problems,
+                                                     static_cast<std::uint64_t>(n), network);
             }
         });
-    for (std::size_t n = 0; n < networks.size(); ++n) {
-        const auto chosen = [&](const Choice& plan) {
-            Chosen out;
-            for (const std::int32_t c : plan) out.push_back(networks[n].members[idx(c)]);
-            return out;
-        };
-        const std::size_t first = n * idx(plans);
-        const Choice& connected = found[first + idx(plans) - 1];
-        networks[n].chosen = chosen(found[first]);
-        networks[n].connected =
-            connected.size() < networks[n].chosen.size() ? chosen(connected) : networks[n].chosen;
-    }
     return proofs;
 }
 
@@ -117,7 +126,8 @@ std::int64_t make_surviving(const Threads& threads, const PlanInput& in, const P
     std::vector<std::int64_t> more(networks.size(), 0);
     const auto one = [&](NetworkProblems& problems, std::int64_t n) {
         Network& network = networks[idx(n)];
-        Problem problem = problems.of(network.members, owner, static_cast<std::int32_t>(n), fixed);
+        Problem problem = problems.of(network.members, owner, static_cast<std::int32_t>(n), fixed,
+                                      ProblemRows::all);
         problem.beside = too_near(in, network.members, options.min_spacing_m);
         const Choice start = columns_of(network.members, network.chosen);
         const auto stations = static_cast<std::int64_t>(start.size());

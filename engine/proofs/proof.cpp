@@ -77,7 +77,7 @@ void renumber(const std::vector<std::int32_t>& column, const std::vector<std::in
 }
 
 NetworkProof weighed_proof(const Problem& problem, const Choice& plan) {
-    const Reduced reduced = reduce(problem, Reduce::rows_and_columns);
+    const Reduced reduced = reduce(problem);
     NetworkProof out =
         weighed(reduced, root_of(reduced.problem), static_cast<std::int64_t>(plan.size()));
     renumber(reduced.column, reduced.row, out);
@@ -85,7 +85,7 @@ NetworkProof weighed_proof(const Problem& problem, const Choice& plan) {
 }
 
 Proven prove(const Problem& problem, const Choice& plan, std::int64_t effort_millions) {
-    const Reduced reduced = reduce(problem, Reduce::rows_and_columns);
+    const Reduced reduced = reduce(problem);
     const Problem& p = reduced.problem;
     const Root root = root_of(p);
     const auto stations = static_cast<std::int64_t>(plan.size());

@@ -93,6 +93,12 @@ public:
         return any;
     }
 
+    std::vector<std::int32_t> kept_rows() const {
+        std::vector<std::int32_t> out;
+        numbered(row_, out);
+        return out;
+    }
+
     Reduced result(std::vector<GoneColumn> gone) const {
         Reduced out;
         const std::vector<std::int32_t> column = numbered(column_, out.column);
@@ -103,9 +109,6 @@ public:
             append(p_.near.of(c), column, q.near);
             q.fixed.push_back(p_.fixed[idx(c)]);
             if (p_.beside.size() > 0) append(p_.beside.of(c), column, q.beside);
-            if (p_.loose.empty()) continue;
-            q.loose.push_back(p_.loose[idx(c)]);
-            q.block.push_back(p_.block[idx(c)]);
         }
         q.columns_of = transposed(q.rows_of, static_cast<std::int32_t>(out.row.size()));
         out.gone = std::move(gone);
@@ -175,12 +178,18 @@ private:
 
 }  // namespace
 
-Reduced reduce(const Problem& problem, Reduce what) {
+Reduced reduce(const Problem& problem) {
     Reducer reducer(problem);
     std::vector<GoneColumn> gone;
     reducer.rows();
-    while (what == Reduce::rows_and_columns && reducer.columns(gone)) reducer.rows();
+    while (reducer.columns(gone)) reducer.rows();
     return reducer.result(std::move(gone));
+}
+
+std::vector<std::int32_t> needed_rows(const Problem& problem) {
+    Reducer reducer(problem);
+    reducer.rows();
+    return reducer.kept_rows();
 }
 
 Choice reduced_choice(const Reduced& reduced, std::int32_t columns, const Choice& whole) {

@@ -24,14 +24,14 @@ struct Reduced {
     std::vector<GoneColumn> gone;
 };
 
-// Rows go by rows whose columns all cover them as well. A plan of the reduced problem is one of
-// the whole, and some best plan of the whole is among them.
-enum class Reduce : std::uint8_t {
-    rows,  // where cycles count: a column that adds nothing may still close one
-    rows_and_columns,
-};
-// Fixed columns stay. REQUIRES: the problem is no window.
-Reduced reduce(const Problem& problem, Reduce what);
+// A plan of the reduced problem is one of the whole, and some best plan of the whole is among them.
+// Fixed columns stay. REQUIRES: cycles do not count, where a column that adds nothing may still
+// close one; the problem is no window.
+Reduced reduce(const Problem& problem);
+
+// Rows go by rows whose columns all cover them as well: those that stay, ascending; of equal ones
+// the first.
+std::vector<std::int32_t> needed_rows(const Problem& problem);
 
 // The same choice in a reduced problem: what went is replaced by what stands for it. `columns`: of
 // the whole problem.

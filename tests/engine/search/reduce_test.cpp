@@ -18,7 +18,7 @@ TEST(Reduce, KeepsABestPlanAndEveryPlanIsOneOfTheWhole) {
         SCOPED_TRACE(seed);
         const Problem whole =
             random_problem(seed, 4 + static_cast<std::int32_t>(seed % 8), 10, seed % 3 == 0);
-        const Reduced small = reduce(whole, Reduce::rows_and_columns);
+        const Reduced small = reduce(whole);
         gone += small.gone.size();
         rows_gone += idx(whole.rows()) - small.row.size();
         ASSERT_EQ(small.column.size() + small.gone.size(), idx(whole.columns()));
@@ -37,7 +37,7 @@ TEST(Reduce, EachColumnGoesForAReason) {
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
         SCOPED_TRACE(seed);
         const Problem whole = random_problem(seed, 14, 10, true);
-        const Reduced small = reduce(whole, Reduce::rows_and_columns);
+        const Reduced small = reduce(whole);
         std::vector<std::uint8_t> row(idx(whole.rows()), 0);
         for (const std::int32_t r : small.row) row[idx(r)] = 1;
         std::vector<std::uint8_t> column(idx(whole.columns()), 1);
@@ -58,12 +58,26 @@ TEST(Reduce, EachColumnGoesForAReason) {
     }
 }
 
-TEST(Reduce, OfRowsAloneKeepsAllColumns) {
-    const Problem whole = random_problem(7, 12, 20, false);
-    const Reduced small = reduce(whole, Reduce::rows);
-    EXPECT_EQ(small.problem.columns(), 12);
-    EXPECT_LT(small.problem.rows(), 20);
-    every_plan(small.problem, [&](const Choice& c) { ASSERT_TRUE(is_plan(whole, c)); });
+TEST(Reduce, RowsAreNeededThatNoOtherStandsFor) {
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        SCOPED_TRACE(seed);
+        const Problem whole = random_problem(seed, 9, 20, false);
+        const auto bits = [&](std::int32_t r) {
+            std::uint32_t out = 0;
+            for (const std::int32_t c : whole.columns_of.of(r)) out |= std::uint32_t{1} << idx(c);
+            return out;
+        };
+        std::vector<std::int32_t> needed;
+        for (std::int32_t r = 0; r < whole.rows(); ++r) {
+            bool stands = true;
+            for (std::int32_t by = 0; by < whole.rows(); ++by) {
+                const bool within = (bits(by) & ~bits(r)) == 0;
+                stands = stands && !(within && (bits(by) != bits(r) || by < r));
+            }
+            if (stands) needed.push_back(r);
+        }
+        ASSERT_EQ(needed_rows(whole), needed);
+    }
 }
 
 }  // namespace
