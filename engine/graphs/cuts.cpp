@@ -21,7 +21,8 @@ struct Sides {
 
 }  // namespace
 
-// Lowest-reachable numbering (Tarjan), without recursion. The graph has no parallel edges.
+// Lowest-reachable numbering (Tarjan), without recursion. The edge to the parent is passed over
+// once: where there are two, they are a cycle.
 Cuts find_cuts(const Graph& graph) {
     const auto n = idx(graph.size());
     Cuts cuts;
@@ -32,6 +33,7 @@ Cuts find_cuts(const Graph& graph) {
     std::vector<std::int32_t> order(n, -1);
     std::vector<std::int32_t> low(n, 0);
     std::vector<std::int32_t> parent(n, -1);
+    std::vector<std::uint8_t> passed(n, 0);
     std::vector<std::int32_t> below(n, 1);  // nodes at and below each, in the search's tree
     std::vector<Sides> sides(n);
     std::vector<std::int64_t> next(graph.begin.begin(), graph.begin.end() - 1);
@@ -53,7 +55,9 @@ Cuts find_cuts(const Graph& graph) {
                     order[idx(w)] = low[idx(w)] = clock++;
                     stack.push_back(w);
                     met.push_back(w);
-                } else if (w != parent[idx(v)]) {
+                } else if (w == parent[idx(v)] && passed[idx(v)] == 0) {
+                    passed[idx(v)] = 1;
+                } else {
                     low[idx(v)] = std::min(low[idx(v)], order[idx(w)]);
                 }
                 continue;

@@ -19,7 +19,7 @@ struct Cuts {
     std::vector<std::int32_t> lesser_part;
     std::vector<std::int32_t> block;
 };
-// Time O(nodes + edges). Thread-safe.
+// Two edges between two nodes are a cycle. Time O(nodes + edges). Thread-safe.
 Cuts find_cuts(const Graph& graph);
 
 }  // namespace vfplan

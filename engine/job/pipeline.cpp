@@ -16,6 +16,7 @@
 #include "engine/job/tables.h"
 #include "engine/plan/planning.h"
 #include "engine/pool/pool.h"
+#include "engine/runtime/stop.h"
 #include "engine/tables/site.h"
 #include "io/exports/outputs.h"
 #include "io/files.h"
@@ -74,8 +75,13 @@ void write_outputs(const RunDir& dir, const std::vector<std::string>& formats,
 }
 
 // From tables to a plan and all files of it, summary.json last of all.
-std::string plan_of(const RunDir& dir, const Config& config, const Threads& threads,
+std::string plan_of(const RunDir& dir, const Config& config, const Threads& threads, bool alone,
                     Progress& progress) {
+    // Until files are written, a search or a proof may take long without a place to stop at. Of
+    // several processes none may end by itself: there each window of a search is such a place.
+    std::optional<SignalsEnd> at_once;
+    if (alone) at_once.emplace();
+    const Threads planning(threads.count(), stop_if_asked);
     progress.stage("read");
     const FieldFile field(dir.file("field.h5"));
     const PlanOptions options = plan_options(config);
@@ -84,7 +90,8 @@ std::string plan_of(const RunDir& dir, const Config& config, const Threads& thre
     const CoverageEntries& entries = candidates.entries;
     // The rows are gone before files are written.
     const Planned planned = plan_stations(plan_tables_of(tables, entries, options.overlap.ratio),
-                                          options, config.scanner.range_max_m, threads, progress);
+                                          options, config.scanner.range_max_m, planning, progress);
+    at_once.reset();
     progress.stage("files");
     write_plan(dir.file("plan.h5"),
                {planned.plan, tables.key, options.overlap, options.candidates, options.survive});
@@ -163,7 +170,7 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
         [&] {
             ranks.lead([&] {
                 dir.remove_work();
-                text = options.plan ? plan_of(dir, config, threads, progress)
+                text = options.plan ? plan_of(dir, config, threads, ranks.count() == 1, progress)
                                     : summary_before_plan(dir, config, progress);
                 write_text(dir.file("provenance.json"),
                            provenance(config, input_sha256, threads.count(), ranks.count()));
@@ -199,12 +206,6 @@ std::string plan_again(const std::filesystem::path& path, const std::filesystem:
     const RunDir dir(out.empty() ? path : out);
     std::optional<FolderLock> source;
     if (!out.empty()) {
-        if (!dir.holds_nothing()) {
-            throw UsageError(fmt::format(
-                "{}: holds files, and plan --out writes over none; choose another --out, or remove "
-                "the folder",
-                out.string()));
-        }
         source.emplace(from, false);
         std::error_code ignored;
         std::filesystem::create_directories(out, ignored);
@@ -213,7 +214,7 @@ std::string plan_again(const std::filesystem::path& path, const std::filesystem:
     if (!out.empty()) dir.begin_copy(from, kept);
     add_pool(dir, config, threads, Ranks{Ranks::Alone{}}, progress);
     dir.remove_work();
-    return plan_of(dir, config, threads, progress);
+    return plan_of(dir, config, threads, true, progress);
 }
 
 }  // namespace vfplan

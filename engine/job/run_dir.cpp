@@ -94,20 +94,29 @@ void RunDir::write_job(const Config& config, const JobKeys& keys) const {
 }
 
 void RunDir::begin_copy(const RunDir& from, const std::vector<std::string>& overrides) const {
+    const std::string source = "provenance.json";
+    const std::string provenance = read_text(from.file(source));
+    const Config config = from.config(overrides);
+    const JobKeys keys =
+        job_keys(config, nlohmann::json::parse(provenance).at("input_sha256").get<std::string>());
     std::error_code error;
+    if (!holds_nothing()) {
+        if (!std::filesystem::exists(file("job.toml"), error) || stored_key() != keys.job ||
+            std::filesystem::exists(file("summary.json"), error)) {
+            throw UsageError(fmt::format(
+                "{}: holds files, and plan --out writes over none; choose another --out, or remove "
+                "the folder",
+                path_.string()));
+        }
+        remove_run();
+    }
+    write_job(config, keys);
+    write_text(file(source), provenance);
     std::filesystem::create_directories(path_ / "shards", error);
     if (error) {
         throw IoError(fmt::format("{}: cannot create: {}; check free space and permissions",
                                   path_.string(), error.message()));
     }
-    const std::string source = "provenance.json";
-    write_text(file(source), read_text(from.file(source)));
-    const Config config = from.config(overrides);
-    write_job(
-        config,
-        job_keys(
-            config,
-            nlohmann::json::parse(read_text(file(source))).at("input_sha256").get<std::string>()));
     std::vector<std::filesystem::path> tables;
     for (const auto& entry : std::filesystem::directory_iterator(from.file("shards"))) {
         if (entry.path().extension() == ".h5") tables.push_back(entry.path());

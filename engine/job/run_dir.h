@@ -37,7 +37,8 @@ public:
     bool holds_nothing() const;
 
     // Makes another run's tables this folder's, by hard links where the file system has them, with
-    // a job.toml in which `overrides` count: of what tables do not depend on. Throws IoError.
+    // a job.toml in which `overrides` count: of what tables do not depend on. Throws IoError, and
+    // UsageError where the folder holds more than such a copy that did not come to its end.
     void begin_copy(const RunDir& from, const std::vector<std::string>& overrides) const;
 
     // Writes job.toml. Throws IoError.

@@ -14,7 +14,7 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 // Only what a signal handler may call.
 [[noreturn]] void end_at_once() {
-    constexpr char text[] = "vfplan: stopped by a signal; nothing was written\n";
+    constexpr char text[] = "vfplan: stopped by a signal; nothing half-written is left\n";
     [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof text - 1);
     _exit(static_cast<int>(Exit::stopped));
 }

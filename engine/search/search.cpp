@@ -1,6 +1,7 @@
 #include "engine/search/search.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -12,31 +13,48 @@
 namespace vfplan {
 namespace {
 
-// Stations of a window: more and its steps cost more, fewer and it finds less.
-constexpr std::size_t window_stations = 250;
-// A plan with not much more is one window.
-constexpr std::size_t one_window = 400;
 // The search of a plan with fewer stations takes as many steps as if it had these: they cost
 // little.
 constexpr std::int64_t small_plan = 100;
-constexpr std::int64_t rounds = 4;
+
+// Plans of more than `above` stations are searched in windows of `stations`, all of them so many
+// times. Larger windows find more and make steps dearer. Each costs a look at the whole: that of a
+// large plan is taken for districts, which are searched in windows themselves.
+struct Level {
+    std::size_t above;
+    std::size_t stations;
+    std::int64_t rounds;
+};
+constexpr std::array<Level, 2> levels = {Level{400, 250, 4}, Level{20'000, 8'000, 2}};
 
 using Stations = std::vector<std::int32_t>;
 
+Choice search_plan(const Threads& threads, const Problem& problem, std::int32_t nodes,
+                   const Choice& start, const ImproveOptions& options);
+
 class WindowSearch {
 public:
-    WindowSearch(const Threads& threads, const Problem& problem, const Choice& start,
-                 const SearchOptions& options)
-        : threads_(threads), p_(problem), plan_(problem), dice_(options.seed), options_(options) {
+    // `nodes`: columns at the end that stand for what stands still outside the problem.
+    // options.steps: for each station.
+    WindowSearch(const Threads& threads, const Problem& problem, std::int32_t nodes,
+                 const Choice& start, const ImproveOptions& options, const Level& level)
+        : threads_(threads),
+          p_(problem),
+          stations_end_(problem.columns() - nodes),
+          plan_(problem),
+          dice_(options.seed),
+          options_(options),
+          level_(level) {
         for (const std::int32_t c : start) plan_.add(c);
     }
 
     Choice run() {
+        const std::int64_t rounds = level_.rounds;
         for (std::int64_t round = 0; round < rounds; ++round) {
-            const std::int64_t steps =
-                options_.effort * (round + 1) / rounds - options_.effort * round / rounds;
-            work_on(divided(), steps, false);
+            work_on(divided(),
+                    options_.steps * (round + 1) / rounds - options_.steps * round / rounds, false);
         }
+        if (!options_.finish) return plan_.choice();
         work_on(divided(), 0, true);
         return close_all(p_, plan_.choice());
     }
@@ -49,12 +67,15 @@ private:
         dice_.shuffle(order);
         std::vector<std::uint8_t> taken(idx(p_.columns()), 0);
         for (const std::int32_t seed : order) {
-            if (taken[idx(seed)] != 0) continue;
+            if (taken[idx(seed)] != 0 || seed >= stations_end_) continue;
             Stations window = {seed};
             taken[idx(seed)] = 1;
             for (std::size_t i = 0; i < window.size(); ++i) {
                 for (const std::int32_t n : plan_.links(window[i])) {
-                    if (taken[idx(n)] != 0 || window.size() >= window_stations) continue;
+                    if (taken[idx(n)] != 0 || n >= stations_end_ ||
+                        window.size() >= level_.stations) {
+                        continue;
+                    }
                     taken[idx(n)] = 1;
                     window.push_back(n);
                 }
@@ -123,9 +144,11 @@ private:
     Stations better_window(const Stations& stations, std::int64_t effort, std::uint64_t seed,
                            bool finish) const {
         const Window w = make_window(p_, plan_, stations);
-        const auto steps = effort * static_cast<std::int64_t>(stations.size());
+        const auto nodes = static_cast<std::int32_t>(
+            std::count(w.column.begin(), w.column.end(), std::int32_t{-1}));
         Stations out;
-        for (const std::int32_t c : improve(w.problem, w.start, {steps, seed, finish})) {
+        for (const std::int32_t c :
+             search_plan(threads_, w.problem, nodes, w.start, {effort, seed, finish})) {
             if (w.column[idx(c)] >= 0) out.push_back(w.column[idx(c)]);
         }
         return out;
@@ -142,21 +165,35 @@ private:
 
     const Threads& threads_;
     const Problem& p_;
+    std::int32_t stations_end_;
     Choosing plan_;
     Dice dice_;
-    SearchOptions options_;
+    ImproveOptions options_;
+    Level level_;
 };
+
+// Whole, or in windows, or in districts of windows. options.steps: for each station.
+Choice search_plan(const Threads& threads, const Problem& problem, std::int32_t nodes,
+                   const Choice& start, const ImproveOptions& options) {
+    const std::size_t stations = start.size() - idx(nodes);
+    for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
+        if (stations <= level->above) continue;
+        return WindowSearch(threads, problem, nodes, start, options, *level).run();
+    }
+    return improve(
+        problem, start,
+        {options.steps * static_cast<std::int64_t>(stations), options.seed, options.finish});
+}
 
 }  // namespace
 
 Choice search(const Threads& threads, const Problem& problem, const Choice& start,
               const SearchOptions& options) {
-    if (start.size() <= one_window) {
-        const auto steps =
-            options.effort * std::max(small_plan, static_cast<std::int64_t>(start.size()));
-        return improve(problem, start, {steps, options.seed, true});
+    const auto stations = static_cast<std::int64_t>(start.size());
+    if (stations < small_plan) {
+        return improve(problem, start, {options.effort * small_plan, options.seed, true});
     }
-    return WindowSearch(threads, problem, start, options).run();
+    return search_plan(threads, problem, 0, start, {options.effort, options.seed, true});
 }
 
 }  // namespace vfplan

@@ -99,9 +99,11 @@ public:
             out.block[idx(of[s])] = p_.block[idx(c)];
             if (size_[idx(block_[s])] > 1) continue;  // on a cycle whatever comes
             const auto& links = plan_.links(c);
-            const bool closable = std::any_of(links.begin(), links.end(), [&](std::int32_t n) {
-                return inside_[idx(n)] == 0 && p_.block[idx(n)] == p_.block[idx(c)];
-            });
+            const bool closable =
+                (!p_.closable.empty() && p_.closable[idx(c)] != 0) ||
+                std::any_of(links.begin(), links.end(), [&](std::int32_t n) {
+                    return inside_[idx(n)] == 0 && p_.block[idx(n)] == p_.block[idx(c)];
+                });
             const bool alone = kept[idx(block_[s])] != 0 || degree[idx(block_[s])] != 2;
             if (alone || closable) out.loose[idx(of[s])] += p_.loose[idx(c)];
             if (closable) out.closable[idx(of[s])] = 1;

@@ -121,7 +121,7 @@ Window make_window(const Problem& p, const Choosing& plan,
         if (!cycles) continue;
         q.block.push_back(p.block[idx(c)]);
         q.loose.push_back(p.loose[idx(c)]);
-        q.closable.push_back(0);
+        q.closable.push_back(p.closable.empty() ? std::uint8_t{0} : p.closable[idx(c)]);
     }
     for (std::vector<std::int32_t>& list : to_node) {
         std::sort(list.begin(), list.end());

@@ -20,8 +20,8 @@ struct Window {
     std::vector<std::int32_t> column;  // in the whole problem; -1: what stands still
 };
 
-// `stations`: some of the chosen columns. Takes time with the whole plan's links. REQUIRES: the
-// whole is no window itself. Thread-safe.
+// `stations`: some of the chosen columns. Takes time with the whole and its plan's links. The
+// whole may be a window itself, of which what stands still is none of the stations. Thread-safe.
 Window make_window(const Problem& whole, const Choosing& plan,
                    const std::vector<std::int32_t>& stations);
 

@@ -223,6 +223,24 @@ TEST_F(Stopped, KilledRunsGoOnToTheSameBytes) {
     }
 }
 
+TEST_F(Stopped, AlsoInTheMidstOfASearch) {
+    vfplan_expect(0, job("run", {}));
+    const auto plan = [&](const std::string& effort) {
+        return Words{"plan",  scratch / "run",         "--out",  scratch / "other",
+                     "--set", "plan.effort=" + effort, "--quiet"};
+    };
+    for (double after = 1; !std::filesystem::exists(scratch / "other/job.toml"); after *= 2) {
+        const Output o = vfplan_signalled(SIGTERM, after, plan("1000000"));
+        ASSERT_EQ(o.code, 75) << o.err;
+    }
+    EXPECT_FALSE(std::filesystem::exists(scratch / "other/summary.json"));
+    // Another plan is not put where one was begun; the same one is.
+    vfplan_expect(2, plan("10"));
+    EXPECT_EQ(vfplan_signalled(SIGTERM, 1, plan("1000000")).code, 75);
+    vfplan_expect(0, {"plan", scratch / "run", "--out", scratch / "third", "--quiet"});
+    vfplan_expect(2, {"plan", scratch / "run", "--out", scratch / "third", "--quiet"});
+}
+
 // "75 stopped early, resumable": Slurm and Ctrl-C ask politely.
 TEST_F(Stopped, PoliteStopsAreResumable) {
     for (const int signal : {SIGTERM, SIGINT}) {

@@ -133,6 +133,22 @@ TEST(Graph, ComponentsBridgesAndArticulationEqualBruteForce) {
         EXPECT_EQ(cuts.bridges, want);
         EXPECT_EQ(cuts.on_cycle, on_cycle);
         bridges += want;
+
+        // Some edges twice.
+        std::vector<OverlapPair> more;
+        for (const OverlapPair& p : pairs) {
+            more.push_back(p);
+            if (random() % 3 == 0) continue;
+            more.push_back(p);
+            want -= count_parts(n, pairs, -1, [&](const OverlapPair& q) {
+                        return q.from == p.from && q.to == p.to;
+                    }) > parts;
+            on_cycle[static_cast<std::size_t>(p.from)] = 1;
+            on_cycle[static_cast<std::size_t>(p.to)] = 1;
+        }
+        const Cuts with_twins = find_cuts(make_graph(n, more));
+        EXPECT_EQ(with_twins.bridges, want);
+        EXPECT_EQ(with_twins.on_cycle, on_cycle);
         for (std::int32_t v = 0; v < n; ++v) {
             bool lonely = true;
             g.each(v, [&](std::int32_t, double) { lonely = false; });

@@ -112,6 +112,53 @@ TEST(Window, CountsLooseStationsAsTheWholeDoes) {
     EXPECT_GT(different, 50U);
 }
 
+// Large plans are searched in windows of windows.
+TEST(Window, OfAWindowIsOneOfTheWhole) {
+    std::size_t tried = 0;
+    std::size_t different = 0;
+    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+        SCOPED_TRACE(seed);
+        Problem whole = random_problem(seed, 16, 10, seed % 3 == 0);
+        if (seed % 4 != 0) count_cycles(whole);
+        Dice dice(seed);
+        const Cut cut(whole, dice);
+        const Window outer = make_window(whole, cut.plan, cut.stations);
+        Choosing plan(outer.problem);
+        for (const std::int32_t c : outer.start) plan.add(c);
+        std::vector<std::int32_t> stations;
+        std::vector<std::int32_t> rest;
+        for (const std::int32_t c : outer.start) {
+            const bool inside = outer.column[idx(c)] >= 0 && dice.below(2) == 0;
+            (inside ? stations : rest).push_back(c);
+        }
+        if (stations.empty()) continue;
+        const Window inner = make_window(outer.problem, plan, stations);
+        ASSERT_TRUE(is_plan(inner.problem, inner.start));
+        const bool cycles = !whole.loose.empty();
+        const auto count = [&](const Problem& p, const Choice& c) {
+            return cycles ? loose_of(p, c) : 0;
+        };
+        const std::int64_t still =
+            count(whole, cut.plan.choice()) - count(inner.problem, inner.start);
+        std::map<std::int64_t, int> counts;
+        every_plan(inner.problem, [&](const Choice& c) {
+            Choice there = rest;
+            for (const std::int32_t i : c) {
+                if (inner.column[idx(i)] >= 0) there.push_back(inner.column[idx(i)]);
+            }
+            const Choice then = cut.with(outer, there);
+            ASSERT_TRUE(is_plan(whole, then));
+            const std::int64_t loose = count(inner.problem, c);
+            ASSERT_EQ(count(whole, then), loose + still);
+            ++counts[loose];
+            ++tried;
+        });
+        different += counts.size() > 1 ? 1 : 0;
+    }
+    EXPECT_GT(tried, 10000U);
+    EXPECT_GT(different, 100U);
+}
+
 // 0 and 1 cover all; 2 and 3 do nothing but close a cycle with 0. Where both are dropped at once,
 // one node without any link is left of their window.
 TEST(Window, MayLoseAllItsStations) {
