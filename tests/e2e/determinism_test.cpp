@@ -68,6 +68,12 @@ TEST_P(Determinism, ThreadsDoNotMatter) {
     }
 }
 
+TEST_P(Determinism, ThreadsDoNotMatterToProofs) {
+    const std::vector<std::string> sets = {"plan.method=certified", "plan.proof_effort=200"};
+    expect_same_bytes(run("one", {"--threads", "1"}, {}, sets),
+                      run("three", {"--threads", "3"}, {}, sets));
+}
+
 TEST_P(Determinism, InstructionSetsDoNotMatter) {
     const auto sets = instruction_sets();
     ASSERT_FALSE(sets.empty());
