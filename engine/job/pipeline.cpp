@@ -61,17 +61,27 @@ void add_pool(const RunDir& dir, const Config& config, const Threads& threads, c
     if (options.pool) make_pool(dir.path(), *options.pool, threads, ranks, progress);
 }
 
-// The files that are asked for; what is not does not stay from a plan before.
+// The files that are asked for, each by one thread; what is not asked for does not stay from a plan
+// before.
 void write_outputs(const RunDir& dir, const std::vector<std::string>& formats,
-                   const Results& results) {
+                   const Results& results, const Threads& threads) {
+    std::vector<const Output*> asked;
     for (const Output& o : outputs()) {
         if (std::find(formats.begin(), formats.end(), o.format) != formats.end()) {
-            o.write(dir.file(o.file), results);
+            asked.push_back(&o);
         } else {
             std::error_code ignored;
             std::filesystem::remove(dir.file(o.file), ignored);
         }
     }
+    // The picture, which takes longest, is the last one.
+    threads.for_each(static_cast<std::int64_t>(asked.size()), 1,
+                     [&](std::int64_t from, std::int64_t to) {
+                         for (std::int64_t i = from; i < to; ++i) {
+                             const Output& o = *asked[asked.size() - 1 - idx(i)];
+                             o.write(dir.file(o.file), results);
+                         }
+                     });
 }
 
 // From tables to a plan and all files of it, summary.json last of all.
@@ -97,7 +107,8 @@ std::string plan_of(const RunDir& dir, const Config& config, const Threads& thre
                {planned.plan, tables.key, options.overlap, options.candidates, options.survive});
     write_outputs(dir, config.output.formats,
                   {field, tables, planned.plan, config.site.input.filename().string(),
-                   plan_line(planned), static_cast<int>(config.output.map_px)});
+                   plan_line(planned), static_cast<int>(config.output.map_px)},
+                  threads);
     Json summary = summary_of_tables(field, tables);
     summary.update(summary_of_plan(planned, tables));
     summary["plan"]["method"] = name_of(options.method);
