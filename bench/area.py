@@ -27,6 +27,8 @@ cell_m = 2
 partition_m = 1
 [overlap]
 threshold = 0.3
+[plan]
+candidates = "axis"
 [output]
 formats = ["csv"]
 """

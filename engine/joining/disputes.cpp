@@ -8,15 +8,15 @@
 #include <set>
 
 #include "engine/joining/knowledge.h"
+#include "engine/joining/meetings.h"
 #include "engine/joining/row_store.h"
 #include "kernels/index.h"
 
 namespace vfplan {
 namespace {
 
-// What a cell may see: pieces of no set, of one (its number), of several.
-constexpr std::int32_t nothing = -1;
-constexpr std::int32_t several = -2;
+constexpr std::int32_t nothing = sees_nothing;
+constexpr std::int32_t several = sees_several;
 // A look costs about a twentieth of asking for all places that may see a piece.
 constexpr std::int64_t looks_for_a_piece = 20;
 
@@ -29,6 +29,8 @@ struct Asked {
     double s1_m;
     PieceRole role;
     std::int32_t set;
+    std::int32_t x;  // cell of its middle
+    std::int32_t y;
 };
 
 // The pieces around a window, and which of its cells may see them.
@@ -46,10 +48,12 @@ public:
             add_pieces(site, round, first, around, patch);
             if (asked_.size() > before) patches_.push_back(patch);
         }
+        if (first) drop_lonely(around);
         views_.resize(patches_.size());
         job.threads.for_each(
             static_cast<std::int64_t>(patches_.size()), 1, [&](std::int64_t from, std::int64_t to) {
                 for (std::int64_t i = from; i < to; ++i) {
+                    if (!is_asked(i)) continue;
                     const std::int64_t patch = patches_[idx(i)];
                     views_[idx(i)] =
                         std::make_unique<WeakView>(weak_view(job, site.patch(patch), patch));
@@ -97,6 +101,25 @@ public:
     }
 
 private:
+    // Where a set is alone within reach no cell sees pieces of two.
+    void drop_lonely(const Window& around) {
+        Meetings meetings(around, reach_cells(job_));
+        for (const Asked& a : asked_) {
+            const bool always = a.role == PieceRole::look || a.role == PieceRole::unseen;
+            meetings.add(a.x, a.y, always ? several : a.set);
+        }
+        meetings.find();
+        std::erase_if(asked_, [&](const Asked& a) { return !meetings.near_several(a.x, a.y); });
+    }
+
+    // Pieces are in the order of their patches.
+    bool is_asked(std::int64_t patch) const {
+        const auto first = std::lower_bound(
+            asked_.begin(), asked_.end(), idx(patch),
+            [](const Asked& a, std::size_t of_patch) { return a.patch < of_patch; });
+        return first != asked_.end() && first->patch == idx(patch);
+    }
+
     void add_pieces(const SiteStore& site, const DisputeRound& round, bool first,
                     const Window& around, std::int64_t patch) {
         const PatchSite near = site.patch(patch);
@@ -114,9 +137,11 @@ private:
                     const double s1 = piece_begin_m(length, k + 1, n);
                     const std::int64_t cell = layout_.cell_at(near.walls[w].at((s0 + s1) / 2));
                     if (layout_.patch_of(cell) != patch) continue;
-                    if (!around.contains(layout_.grid.ix(cell), layout_.grid.iy(cell))) continue;
+                    const std::int32_t x = layout_.grid.ix(cell);
+                    const std::int32_t y = layout_.grid.iy(cell);
+                    if (!around.contains(x, y)) continue;
                     asked_.push_back({patches_.size(), static_cast<std::int32_t>(w), side, s0, s1,
-                                      role, round.set[p]});
+                                      role, round.set[p], x, y});
                 }
             }
         }
