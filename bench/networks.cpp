@@ -60,9 +60,8 @@ MainNetwork made(const Scene& site, const std::filesystem::path& dir) {
     const Candidates candidates = read_candidates(dir, out.options.candidates);
     const PlanTables t =
         plan_tables_of(candidates.tables, candidates.entries, out.options.overlap.ratio);
-    const auto pieces = static_cast<std::int64_t>(t.piece_length_m.size());
-    const Graph graph = make_graph(overlap_pairs(threads, t.rows, index_of(t.rows, pieces),
-                                                 t.piece_length_m, out.options.overlap));
+    const Graph graph =
+        make_graph(overlap_pairs(threads, t.rows, t.piece_length_m, out.options.overlap));
     const PlanInput in{t.coverage.candidates, t.rows, t.piece_length_m, t.coverage.status, graph};
     out.table = {t.rows.begin, t.rows.piece};
     out.piece_length_m = t.piece_length_m;

@@ -190,10 +190,9 @@ void stage_overlap(benchmark::State& state, const std::string& site) {
     const PlanOptions options = plan_options(m.scene->config);
     std::size_t pairs = 0;
     timed(state, [&] {
-        const PieceIndex index = index_of(m.plan->rows, m.coverage->pieces.size());
         pairs = static_cast<std::size_t>(
-            make_graph(overlap_pairs(m.threads, m.plan->rows, index, m.plan->piece_length_m,
-                                     options.overlap))
+            make_graph(
+                overlap_pairs(m.threads, m.plan->rows, m.plan->piece_length_m, options.overlap))
                 .edges());
         return pairs;
     });

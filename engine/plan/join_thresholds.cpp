@@ -179,10 +179,8 @@ JoinThresholds find_join_thresholds(const Threads& threads, const PlanInput& in,
             joined.insert(by_min_len.root(component[idx(s.candidate)]));
         }
     } else {
-        const PieceIndex index =
-            index_of(in.rows, static_cast<std::int64_t>(in.piece_length_m.size()));
         const std::vector<std::int32_t> all = components(make_graph(overlap_pairs(
-            threads, in.rows, index, in.piece_length_m, {OverlapRatio::min_len, rule.threshold})));
+            threads, in.rows, in.piece_length_m, {OverlapRatio::min_len, rule.threshold})));
         for (const Station& s : plan.stations) joined.insert(all[idx(s.candidate)]);
     }
     out.networks_by_min_len = static_cast<std::int64_t>(joined.size());

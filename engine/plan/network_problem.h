@@ -26,7 +26,7 @@ enum class ProblemRows : std::uint8_t {
 // returned, memory is about 24 bytes for each of `most_entries` entries of the coverage table.
 class NetworkProblems {
 public:
-    explicit NetworkProblems(const PlanInput& input, std::int64_t most_entries = 1 << 25)
+    explicit NetworkProblems(const PlanInput& input, std::int64_t most_entries = 1 << 23)
         : in_(input),
           most_entries_(most_entries),
           column_(input.candidates.size(), -1),

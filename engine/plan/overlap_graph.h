@@ -19,12 +19,13 @@ struct PairBlock {
     std::vector<double> overlap;
 };
 
-// All pairs of rows that overlap enough, by blocks of consecutive rows, in parallel. `index` is of
-// the rows. The number of threads changes nothing.
+// All pairs of rows that overlap enough, by blocks of consecutive rows, in parallel. An index is
+// made of some rows at a time, with no more entries than this or of one row. Neither that nor the
+// number of threads changes anything.
 std::vector<PairBlock> overlap_pairs(const Threads& threads, const OverlapRows& rows,
-                                     const PieceIndex& index,
                                      std::span<const double> piece_length_m,
-                                     const OverlapRule& rule);
+                                     const OverlapRule& rule,
+                                     std::int64_t entries_at_once = std::int64_t{1} << 26);
 
 // The graph of such pairs, which it eats up block by block.
 Graph make_graph(std::vector<PairBlock> blocks);

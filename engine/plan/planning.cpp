@@ -21,14 +21,8 @@ Planned plan_stations(const PlanTables& t, const PlanOptions& options, double ra
                       const Threads& threads, Progress& progress) {
     Planned out;
     progress.stage("overlap");
-    std::vector<PairBlock> pairs;
-    {
-        // The index is gone when the plan begins.
-        const PieceIndex index =
-            index_of(t.rows, static_cast<std::int64_t>(t.piece_length_m.size()));
-        pairs = overlap_pairs(threads, t.rows, index, t.piece_length_m, options.overlap);
-    }
-    const Graph graph = make_graph(std::move(pairs));
+    const Graph graph =
+        make_graph(overlap_pairs(threads, t.rows, t.piece_length_m, options.overlap));
     const PlanInput input{t.coverage.candidates, t.rows, t.piece_length_m, t.coverage.status,
                           graph};
     progress.stage("plan");

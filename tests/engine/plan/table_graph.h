@@ -7,10 +7,9 @@
 namespace vfplan::test {
 
 inline Graph graph_of(const Threads& threads, const Pieces& pieces, const CoverageTable& table,
-                      const OverlapRule& rule) {
+                      const OverlapRule& rule, std::int64_t entries_at_once = 1 << 26) {
     const OverlapRows rows = overlap_rows(table, formula(rule.ratio).by_angle);
-    return make_graph(
-        overlap_pairs(threads, rows, index_of(rows, pieces.size()), piece_lengths_m(pieces), rule));
+    return make_graph(overlap_pairs(threads, rows, piece_lengths_m(pieces), rule, entries_at_once));
 }
 
 }  // namespace vfplan::test
