@@ -162,7 +162,7 @@ void add_links(const PlanInput& in, Plan& plan) {
 }  // namespace
 
 Plan make_plan(const Threads& threads, const PlanInput& in, const PlanOptions& options,
-               PlanReport& report) {
+               PlanReport& report, Progress* progress) {
     report = {};
     Plan plan;
     plan.pieces = in.status;
@@ -204,7 +204,7 @@ Plan make_plan(const Threads& threads, const PlanInput& in, const PlanOptions& o
             if (options.loops) n.chosen = close_loops(in, n.chosen, work);
         }
     } else {
-        plan.certificate = refine(threads, in, options, owner, fixed, networks);
+        plan.certificate = refine(threads, in, options, owner, fixed, networks, progress);
     }
     if (options.method != PlanMethod::refined) {
         plan.certificate = certify(threads, in, options, owner, fixed, networks);

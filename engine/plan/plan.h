@@ -8,6 +8,7 @@
 #include "engine/config/options.h"
 #include "engine/plan/workspace.h"
 #include "engine/runtime/parallel.h"
+#include "engine/runtime/progress.h"
 
 namespace vfplan {
 
@@ -31,8 +32,9 @@ struct PlanReport {
 
 // One network for each component of the graph that has something to add, that of the component
 // which can cover most length first; stations numbered by network, then in the order of choice.
-// Deterministic. Links have no ratios but that of the job yet (add_ratios).
+// Deterministic. Links have no ratios but that of the job yet (add_ratios). `progress`: is told of
+// steps of the search.
 Plan make_plan(const Threads& threads, const PlanInput& input, const PlanOptions& options,
-               PlanReport& report);
+               PlanReport& report, Progress* progress = nullptr);
 
 }  // namespace vfplan

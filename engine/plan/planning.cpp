@@ -26,7 +26,7 @@ Planned plan_stations(const PlanTables& t, const PlanOptions& options, double ra
     const PlanInput input{t.coverage.candidates, t.rows, t.piece_length_m, t.coverage.status,
                           graph};
     progress.stage("plan");
-    out.plan = make_plan(threads, input, options, out.report);
+    out.plan = make_plan(threads, input, options, out.report, &progress);
     out.loops = options.loops;
     add_ratios(input, t.angles, out.plan);
     add_roles(input, out.plan);

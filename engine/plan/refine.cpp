@@ -62,10 +62,9 @@ Sparse too_near(const PlanInput& in, const std::vector<std::int32_t>& members, d
 // Both plans of a network start from the same one, so that they can be searched at once; that with
 // loops takes longer, and begins first. The proof goes with the other.
 NetworkProof refine_one(const Threads& threads, const PlanInput& in, const PlanOptions& options,
-                        const Problem& problem, const NetworkProblems& problems, std::uint64_t seed,
-                        Network& network) {
+                        const SearchOptions& search, const Problem& problem,
+                        const NetworkProblems& problems, Network& network) {
     const Choice start = columns_of(network.members, network.chosen);
-    const SearchOptions search{options.effort, seed};
     const auto with_loops = [&] {
         Problem p = problem;
         p.block = find_cuts(induced(in.graph, network.members)).block;
@@ -100,9 +99,16 @@ NetworkProof refine_one(const Threads& threads, const PlanInput& in, const PlanO
 
 Certificate refine(const Threads& threads, const PlanInput& in, const PlanOptions& options,
                    const std::vector<std::int32_t>& owner, const std::vector<std::uint8_t>& fixed,
-                   std::vector<Network>& networks) {
+                   std::vector<Network>& networks, Progress* progress) {
     Certificate proofs;
     proofs.networks.resize(networks.size());
+    SearchOptions search{options.effort};
+    if (progress != nullptr) {
+        std::int64_t steps = 0;
+        for (const Network& n : networks) steps += search_steps(n.chosen.size(), options.effort);
+        progress->expect(options.loops ? 2 * steps : steps);
+        search.done = [&](std::int64_t some) { progress->advance(some); };
+    }
     threads.for_each(
         static_cast<std::int64_t>(networks.size()), 1, [&](std::int64_t from, std::int64_t to) {
             NetworkProblems problems(in);
@@ -111,8 +117,10 @@ Certificate refine(const Threads& threads, const PlanInput& in, const PlanOption
                 Problem problem = problems.of(network.members, owner, static_cast<std::int32_t>(n),
                                               fixed, ProblemRows::needed);
                 problem.beside = too_near(in, network.members, options.min_spacing_m);
-                proofs.networks[idx(n)] = refine_one(threads, in, options, problem, problems,
-                                                     static_cast<std::uint64_t>(n), network);
+                SearchOptions mine = search;
+                mine.seed = static_cast<std::uint64_t>(n);
+                proofs.networks[idx(n)] =
+                    refine_one(threads, in, options, mine, problem, problems, network);
             }
         });
     return proofs;

@@ -7,6 +7,7 @@
 #include "engine/config/options.h"
 #include "engine/plan/network_problem.h"
 #include "engine/runtime/parallel.h"
+#include "engine/runtime/progress.h"
 #include "kernels/certificate.h"
 
 namespace vfplan {
@@ -16,7 +17,7 @@ namespace vfplan {
 // few stations the networks could do with. The number of threads changes nothing.
 Certificate refine(const Threads& threads, const PlanInput& input, const PlanOptions& options,
                    const std::vector<std::int32_t>& owner, const std::vector<std::uint8_t>& fixed,
-                   std::vector<Network>& networks);
+                   std::vector<Network>& networks, Progress* progress);
 
 // Makes each network survive the loss of any one of its stations (engine/search/survive.h); returns
 // how many stations more that takes in all. The number of threads changes nothing.

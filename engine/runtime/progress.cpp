@@ -83,7 +83,7 @@ void Progress::reach(std::int64_t steps) {
 void Progress::tell(std::int64_t done) {
     if (quiet_ || total_ == 0) return;
     const std::unique_lock lock(showing_, std::try_to_lock);
-    if (lock.owns_lock()) show(done, false);
+    if (lock.owns_lock()) show(std::min(done, total_), false);
 }
 
 // On a terminal ten times a second; in a log a line per 5 % of a stage that takes over two

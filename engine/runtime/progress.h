@@ -40,6 +40,8 @@ public:
 
     // Ends the stage before it. `total` 0: a stage without steps.
     void stage(const std::string& name, std::int64_t total = 0);
+    // How many steps the stage at hand has, where that is known only later; before the first one.
+    void expect(std::int64_t total) { total_ = total; }
     void advance(std::int64_t steps);
     // So many steps are done at least: for steps taken in order, by others too.
     void reach(std::int64_t steps);

@@ -28,23 +28,26 @@ struct Level {
 constexpr std::array<Level, 2> levels = {Level{400, 250, 4}, Level{20'000, 8'000, 2}};
 
 using Stations = std::vector<std::int32_t>;
+using Done = std::function<void(std::int64_t)>;
 
 Choice search_plan(const Threads& threads, const Problem& problem, std::int32_t nodes,
-                   const Choice& start, const ImproveOptions& options);
+                   const Choice& start, const ImproveOptions& options, const Done& done);
 
 class WindowSearch {
 public:
     // `nodes`: columns at the end that stand for what stands still outside the problem.
     // options.steps: for each station.
     WindowSearch(const Threads& threads, const Problem& problem, std::int32_t nodes,
-                 const Choice& start, const ImproveOptions& options, const Level& level)
+                 const Choice& start, const ImproveOptions& options, const Level& level,
+                 const Done& done)
         : threads_(threads),
           p_(problem),
           stations_end_(problem.columns() - nodes),
           plan_(problem),
           dice_(options.seed),
           options_(options),
-          level_(level) {
+          level_(level),
+          done_(done) {
         for (const std::int32_t c : start) plan_.add(c);
     }
 
@@ -148,7 +151,7 @@ private:
             std::count(w.column.begin(), w.column.end(), std::int32_t{-1}));
         Stations out;
         for (const std::int32_t c :
-             search_plan(threads_, w.problem, nodes, w.start, {effort, seed, finish})) {
+             search_plan(threads_, w.problem, nodes, w.start, {effort, seed, finish}, done_)) {
             if (w.column[idx(c)] >= 0) out.push_back(w.column[idx(c)]);
         }
         return out;
@@ -170,30 +173,39 @@ private:
     Dice dice_;
     ImproveOptions options_;
     Level level_;
+    const Done& done_;
 };
 
 // Whole, or in windows, or in districts of windows. options.steps: for each station.
 Choice search_plan(const Threads& threads, const Problem& problem, std::int32_t nodes,
-                   const Choice& start, const ImproveOptions& options) {
+                   const Choice& start, const ImproveOptions& options, const Done& done) {
     const std::size_t stations = start.size() - idx(nodes);
     for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
         if (stations <= level->above) continue;
-        return WindowSearch(threads, problem, nodes, start, options, *level).run();
+        return WindowSearch(threads, problem, nodes, start, options, *level, done).run();
     }
-    return improve(
-        problem, start,
-        {options.steps * static_cast<std::int64_t>(stations), options.seed, options.finish});
+    const std::int64_t steps = options.steps * static_cast<std::int64_t>(stations);
+    Choice out = improve(problem, start, {steps, options.seed, options.finish});
+    if (done) done(steps);
+    return out;
 }
 
 }  // namespace
 
+std::int64_t search_steps(std::size_t stations, std::int64_t effort) {
+    return effort * std::max(small_plan, static_cast<std::int64_t>(stations));
+}
+
 Choice search(const Threads& threads, const Problem& problem, const Choice& start,
               const SearchOptions& options) {
-    const auto stations = static_cast<std::int64_t>(start.size());
-    if (stations < small_plan) {
-        return improve(problem, start, {options.effort * small_plan, options.seed, true});
+    if (static_cast<std::int64_t>(start.size()) < small_plan) {
+        const std::int64_t steps = search_steps(start.size(), options.effort);
+        Choice out = improve(problem, start, {steps, options.seed, true});
+        if (options.done) options.done(steps);
+        return out;
     }
-    return search_plan(threads, problem, 0, start, {options.effort, options.seed, true});
+    return search_plan(threads, problem, 0, start, {options.effort, options.seed, true},
+                       options.done);
 }
 
 }  // namespace vfplan

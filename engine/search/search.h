@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "engine/runtime/parallel.h"
 #include "engine/search/problem.h"
@@ -11,7 +12,10 @@ namespace vfplan {
 struct SearchOptions {
     std::int64_t effort = 0;  // steps for each station of the start
     std::uint64_t seed = 0;
+    // Called with a number of steps that were done, from any thread; about search_steps() in all.
+    std::function<void(std::int64_t)> done = {};
 };
+std::int64_t search_steps(std::size_t stations, std::int64_t effort);
 
 // improve() on the whole, or, of a plan with many stations, on windows of it in turn, at the same
 // time where they do not touch. Never worse than `start`, which is a plan. No station of the result
