@@ -147,16 +147,28 @@ const Leader::State& Leader::state(int round) {
     std::sort(s.cells.begin(), s.cells.end());
     s.cells.erase(std::unique(s.cells.begin(), s.cells.end()), s.cells.end());
     std::vector<double> length_m(idx(pieces_.size()), 0);
-    OverlapRows of_cells = rows_of_cells(s, length_m, known_of(std::move(before), length_m));
+    // Packed until the rows of candidates, which stand before them, are known: these are few.
+    const PackedRows of_cells = rows_of_cells(s, length_m, known_of(std::move(before), length_m));
     OverlapRows& rows = s.local.rows;
     if (!s.cells.empty()) {
         std::vector<bool> wanted(idx(pieces_.size()), false);
-        for (const std::int32_t p : of_cells.piece) wanted[idx(p)] = true;
-        const CandidateRows some = candidates_covering(job_, candidates_, wanted);
-        for (const std::int32_t c : some.number) s.component.push_back(component_[idx(c)]);
-        for (const OverlapRow& row : some.rows) add_row(row, by_angle(), rows, length_m);
+        for (std::size_t c = 0; c < of_cells.size(); ++c) {
+            for (const PieceRun& run : of_cells.runs(c)) {
+                std::fill_n(wanted.begin() + run.first, run.count, true);
+            }
+        }
+        PackedRows of_candidates;
+        {
+            const CandidateRows some = candidates_covering(job_, candidates_, wanted);
+            for (const std::int32_t c : some.number) s.component.push_back(component_[idx(c)]);
+            for (const OverlapRow& row : some.rows) add(row, of_candidates, length_m);
+        }
+        rows.piece.reserve(idx(of_candidates.entries() + of_cells.entries()));
+        rows.begin.reserve(of_candidates.size() + of_cells.size() + 1);
+        for (const PackedRows* part : {&std::as_const(of_candidates), &of_cells}) {
+            for (std::size_t r = 0; r < part->size(); ++r) part->unpack(r, rows);
+        }
     }
-    append(std::move(of_cells), rows);
     if (!rows.piece.empty()) {
         const auto [least, most] = std::minmax_element(rows.piece.begin(), rows.piece.end());
         s.first_piece = *least;
@@ -172,14 +184,24 @@ Leader::Known Leader::known_of(std::unique_ptr<State> before, std::vector<double
     if (!before) return out;
     out.cells = std::move(before->cells);
     out.twins = std::move(before->twins);
-    out.rows = PackedRows(before->local.rows, static_cast<std::int32_t>(before->component.size()),
-                          before->first_piece);
+    const OverlapRows& rows = before->local.rows;
+    for (auto r = static_cast<std::int32_t>(before->component.size()); r < rows.size(); ++r) {
+        out.rows.add(rows.row(r), rows.seen(r, {}).angle_rad, before->first_piece);
+    }
     std::copy(before->local.piece_length_m.begin(), before->local.piece_length_m.end(),
               length_m.begin() + before->first_piece);
     return out;
 }
 
-OverlapRows Leader::rows_of_cells(State& s, std::vector<double>& length_m, Known before) const {
+void Leader::add(const OverlapRow& row, PackedRows& rows, std::vector<double>& length_m) const {
+    const SeenRow seen = row.seen();
+    rows.add(seen.piece, by_angle() ? seen.angle_rad : std::span<const float>());
+    for (std::size_t i = 0; i < seen.piece.size(); ++i) {
+        length_m[idx(seen.piece[i])] = seen.length_of(i);
+    }
+}
+
+PackedRows Leader::rows_of_cells(State& s, std::vector<double>& length_m, Known before) const {
     constexpr std::size_t at_once = 4096;
     std::vector<std::int64_t>& cells = s.cells;
     s.twins = std::move(before.twins);
@@ -190,7 +212,7 @@ OverlapRows Leader::rows_of_cells(State& s, std::vector<double>& length_m, Known
         const auto at = std::lower_bound(before.cells.begin(), before.cells.end(), cell);
         return at != before.cells.end() && *at == cell ? at - before.cells.begin() : nobody;
     };
-    OverlapRows all;
+    PackedRows all;
     for (std::size_t from = 0; from < cells.size(); from += at_once) {
         const std::size_t to = std::min(cells.size(), from + at_once);
         std::vector<Vec2d> eyes;
@@ -201,29 +223,25 @@ OverlapRows Leader::rows_of_cells(State& s, std::vector<double>& length_m, Known
         for (std::size_t i = from, k = 0; i < to; ++i) {
             const std::ptrdiff_t row = known(cells[i]);
             if (row < 0) {
-                add_row(looked[k++], by_angle(), all, length_m);
+                add(looked[k++], all, length_m);
             } else {
-                before.rows.unpack(idx(row), all);
+                all.add(before.rows, idx(row));
             }
         }
     }
     before = {};
     if (by_angle()) return all;
-    std::vector<std::int32_t> order(cells.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto same = [&](std::int32_t a, std::int32_t b) {
-        return std::equal(all.row(a).begin(), all.row(a).end(), all.row(b).begin(),
-                          all.row(b).end());
-    };
-    std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-        const auto [x, y] = std::mismatch(all.row(a).begin(), all.row(a).end(), all.row(b).begin(),
-                                          all.row(b).end());
-        if (y == all.row(b).end()) return x == all.row(a).end() && a < b;
-        return x == all.row(a).end() || *x < *y;
+    // Equal rows next to each other, the first one first.
+    std::vector<std::size_t> order(cells.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        const auto order_of_rows = std::lexicographical_compare_three_way(
+            all.runs(a).begin(), all.runs(a).end(), all.runs(b).begin(), all.runs(b).end());
+        return order_of_rows != 0 ? order_of_rows < 0 : a < b;
     });
     std::vector<bool> kept(cells.size(), true);
     for (std::size_t i = 1; i < order.size(); ++i) {
-        if (same(order[i - 1], order[i])) kept[idx(order[i])] = false;
+        if (std::ranges::equal(all.runs(order[i - 1]), all.runs(order[i]))) kept[order[i]] = false;
     }
     std::size_t count = 0;
     for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -234,7 +252,7 @@ OverlapRows Leader::rows_of_cells(State& s, std::vector<double>& length_m, Known
         }
     }
     cells.resize(count);
-    keep(kept, all);
+    all.keep(kept);
     std::sort(s.twins.begin(), s.twins.end());
     return all;
 }

@@ -59,6 +59,9 @@ private:
     // With the cells of all rounds before.
     const State& state(int round);
     bool by_angle() const { return formula(rule_.ratio).by_angle; }
+    // Appends a row, without its angles where overlap goes by length; notes the lengths of its
+    // pieces.
+    void add(const OverlapRow& row, PackedRows& rows, std::vector<double>& length_m) const;
     // What is known of cells from a state of fewer rounds, or nothing.
     struct Known {
         std::vector<std::int64_t> cells;
@@ -70,7 +73,7 @@ private:
     // Of the state's cells, in the site's numbering, without angles where overlap goes by length;
     // of cells with equal rows the first stays then. Notes the lengths of pieces. What is known
     // before is not looked at again.
-    OverlapRows rows_of_cells(State& s, std::vector<double>& length_m, Known before) const;
+    PackedRows rows_of_cells(State& s, std::vector<double>& length_m, Known before) const;
     // For each piece the set that sees it, or several or nobody.
     std::vector<std::int32_t> seen_by_sets(const State& s) const;
     // For each space the set that sees most of its pieces; -1 where nothing is to be joined: nobody

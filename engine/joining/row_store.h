@@ -1,4 +1,4 @@
-// Rows of cells in bulk: appended, thinned out and packed without a second copy.
+// Rows of cells in bulk: packed, and thinned out so.
 #pragma once
 
 #include <compare>
@@ -9,15 +9,6 @@
 #include "kernels/overlap_rows.h"
 
 namespace vfplan {
-
-// Appends a row, without its angles unless they are asked for; notes the lengths of its pieces.
-void add_row(const OverlapRow& row, bool angles, OverlapRows& rows, std::span<double> length_m);
-
-// Puts rows behind others, which are few; what is appended is not held twice.
-void append(OverlapRows more, OverlapRows& rows);
-
-// Drops the rows without kept[row], in place. They have no angles.
-void keep(const std::vector<bool>& kept, OverlapRows& rows);
 
 // Pieces that follow each other, as those of a wall that are seen mostly do.
 struct PieceRun {
@@ -33,20 +24,31 @@ inline void add_piece(std::int32_t piece, std::size_t row, std::vector<PieceRun>
     ++runs.back().count;
 }
 
-// Rows in runs: a fraction of their size. Angles are kept as they are.
+// Rows in runs: a fraction of their size. Angles are kept as they are, of all rows or of none.
 class PackedRows {
 public:
-    PackedRows() = default;
-    // The rows from..end, pieces numbered from `first_piece`.
-    PackedRows(const OverlapRows& rows, std::int32_t from, std::int32_t first_piece);
-    // Appends a row to others.
+    std::size_t size() const { return begin_.size() - 1; }
+    std::int64_t entries() const { return entries_; }
+    std::span<const PieceRun> runs(std::size_t row) const {
+        return {runs_.data() + begin_[row], runs_.data() + begin_[row + 1]};
+    }
+
+    // Appends a row, pieces numbered from `first_piece`.
+    void add(std::span<const std::int32_t> pieces, std::span<const float> angle_rad,
+             std::int32_t first_piece = 0);
+    // Appends a row of others.
+    void add(const PackedRows& others, std::size_t row);
+    // Drops the rows without kept[row].
+    void keep(const std::vector<bool>& kept);
+    // Appends a row to others, in full.
     void unpack(std::size_t row, OverlapRows& to) const;
 
 private:
     std::vector<PieceRun> runs_;
     std::vector<std::size_t> begin_ = {0};
+    std::int64_t entries_ = 0;
     std::vector<float> angle_rad_;
-    std::vector<std::size_t> entry_;  // of each row's first angle
+    std::vector<std::size_t> entry_ = {0};  // of each row's first angle
 };
 
 }  // namespace vfplan
