@@ -181,10 +181,14 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
         [&] {
             ranks.lead([&] {
                 dir.remove_work();
+                const auto tell = [&] {
+                    write_text(dir.file("provenance.json"),
+                               provenance(config, input_sha256, threads.count(), ranks.count()));
+                };
+                tell();  // a plan that is stopped leaves tables that others may plan from
                 text = options.plan ? plan_of(dir, config, threads, ranks.count() == 1, progress)
                                     : summary_before_plan(dir, config, progress);
-                write_text(dir.file("provenance.json"),
-                           provenance(config, input_sha256, threads.count(), ranks.count()));
+                tell();
             });
         });
     if (!ranks.leader()) return "";
@@ -218,6 +222,7 @@ std::string plan_again(const std::filesystem::path& path, const std::filesystem:
     std::optional<FolderLock> source;
     if (!out.empty()) {
         source.emplace(from, false);
+        from.provenance();
         std::error_code ignored;
         std::filesystem::create_directories(out, ignored);
     }

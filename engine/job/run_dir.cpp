@@ -20,6 +20,7 @@ namespace {
 constexpr const char* key_label = "# job ";
 constexpr const char* text_label = "# text ";  // hash of all that follows the line
 constexpr const char* format = "vfplan tables 3\n";
+constexpr const char* provenance_name = "provenance.json";
 
 }  // namespace
 
@@ -93,9 +94,18 @@ void RunDir::write_job(const Config& config, const JobKeys& keys) const {
                fmt::format("{}{}\n{}{}\n{}", key_label, keys.job, text_label, hash.hex(), text));
 }
 
+std::string RunDir::provenance() const {
+    if (!std::filesystem::exists(file(provenance_name))) {
+        throw UsageError(
+            fmt::format("{}: holds no {}, so that its run did not come to the end of "
+                        "its tables; run the job again, it goes on",
+                        path_.string(), provenance_name));
+    }
+    return read_text(file(provenance_name));
+}
+
 void RunDir::begin_copy(const RunDir& from, const std::vector<std::string>& overrides) const {
-    const std::string source = "provenance.json";
-    const std::string provenance = read_text(from.file(source));
+    const std::string provenance = from.provenance();
     const Config config = from.config(overrides);
     const JobKeys keys =
         job_keys(config, nlohmann::json::parse(provenance).at("input_sha256").get<std::string>());
@@ -111,7 +121,7 @@ void RunDir::begin_copy(const RunDir& from, const std::vector<std::string>& over
         remove_run();
     }
     write_job(config, keys);
-    write_text(file(source), provenance);
+    write_text(file(provenance_name), provenance);
     std::filesystem::create_directories(path_ / "shards", error);
     if (error) {
         throw IoError(fmt::format("{}: cannot create: {}; check free space and permissions",

@@ -36,6 +36,9 @@ public:
     // True where nothing lies in the folder, or it is not there.
     bool holds_nothing() const;
 
+    // provenance.json, which is there as soon as the tables are. Throws UsageError where it is not.
+    std::string provenance() const;
+
     // Makes another run's tables this folder's, by hard links where the file system has them, with
     // a job.toml in which `overrides` count: of what tables do not depend on. Throws IoError, and
     // UsageError where the folder holds more than such a copy that did not come to its end.
