@@ -94,15 +94,16 @@ Json summary_of_plan(const Planned& p, const CoverageTables& t) {
     j["bridges"] = m.bridges;
     j["articulation_stations"] = m.articulation_stations;
     j["redundant_links"] = m.redundant_links;
-    // Of the plan that is given; then of plans without and with loops, each by itself: a gap never
-    // compares across.
+    // The bound is one of connected plans: it holds with loops too, but a gap compares it with
+    // connected plans alone.
+    const double connected_gap = gap(p.report.connected, m.lower_bound);
     j["lower_bound"] = m.lower_bound;
-    j["gap"] = m.gap;
+    j["gap"] = connected_gap;
+    j["gap_connected"] = connected_gap;
     j["candidate_pool"] = {{"name", name_of(t.pool)}, {"candidates", t.candidates.size()}};
     const auto count = [&](const std::string& kind, std::int64_t stations) {
         j["stations_" + kind] = stations;
         j["bound_" + kind] = m.lower_bound;
-        j["gap_" + kind] = gap(stations, m.lower_bound);
     };
     count("connected", p.report.connected);
     if (p.loops) {
@@ -162,13 +163,14 @@ void add_times(Json& j, const Progress& progress) {
 std::string plan_text(const Planned& p, const CoverageTables& t, const Config& config) {
     const Metrics& m = p.metrics;
     std::string out = fmt::format(
-        "stations     {} in {} network{} with {} links\n"
-        "bound        no plan over these {} candidates ({}) has fewer than {}: gap {:.1f} %\n"
+        "stations     {} in {} network{} with {} links{}\n"
+        "bound        no plan over these {} candidates ({}) has fewer than {}: gap {:.1f} %{}\n"
         "covered      {} of {} coverable pieces, {:.2f} % of their {:.0f} m, by the main network\n",
         p.plan.stations.size(), m.networks, m.networks == 1 ? "" : "s", p.plan.links.size(),
-        t.candidates.size(), name_of(t.pool), m.lower_bound, 100 * m.gap, m.pieces_covered,
-        m.pieces_coverable, percent(m.length_covered_m, m.length_coverable_m),
-        m.length_coverable_m);
+        p.loops ? fmt::format(", {} before loops", p.report.connected) : "", t.candidates.size(),
+        name_of(t.pool), m.lower_bound, 100 * gap(p.report.connected, m.lower_bound),
+        p.loops ? " before loops" : "", m.pieces_covered, m.pieces_coverable,
+        percent(m.length_covered_m, m.length_coverable_m), m.length_coverable_m);
     if (m.networks > 1) out += apart_text(p, config);
     const std::int64_t nobody = t.pieces.size() - m.pieces_coverable;
     if (nobody > 0) {

@@ -224,7 +224,6 @@ Metrics measure(const Threads& threads, const PlanInput& input, const Plan& plan
         measure_paths(threads, graph, graph.size() <= wapl_of_all ? wapl_of_all : wapl_sample);
     measure_pieces(input, plan, places, range_max_m, m);
     m.lower_bound = plan.certificate.bound();
-    m.gap = gap(static_cast<std::int64_t>(plan.stations.size()), m.lower_bound);
     return m;
 }
 

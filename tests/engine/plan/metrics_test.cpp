@@ -217,8 +217,8 @@ TEST(Bound, GapIsTheShareThatMightBeSpared) {
     const std::vector<Wall> walls(2, {Vec2d(1, 1), Vec2d(2, 1)});
     const Metrics m = measure(Threads(1), h.input(), plan, h.places(walls), 10);
     EXPECT_EQ(m.lower_bound, 3);
-    EXPECT_DOUBLE_EQ(m.gap, 0.25);
-    EXPECT_EQ(of_graph({}, {}).gap, 0);
+    EXPECT_DOUBLE_EQ(gap(4, m.lower_bound), 0.25);
+    EXPECT_EQ(gap(0, 0), 0);
 }
 
 }  // namespace
