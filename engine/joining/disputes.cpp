@@ -71,23 +71,23 @@ public:
 
     const std::vector<Asked>& asked() const { return asked_; }
 
-    // f(piece) for some of them, from any thread.
-    template <class F>
-    void in_parallel(const std::vector<const Asked*>& some, F&& f) const {
-        job_.threads.for_each(static_cast<std::int64_t>(some.size()), 4,
-                              [&](std::int64_t from, std::int64_t to) {
-                                  for (std::int64_t i = from; i < to; ++i) f(*some[idx(i)]);
-                              });
-    }
-    // f(piece, index of the cell) for all pieces with a role; a cell may come more than once.
+    // f(piece, index of the cell) for all pieces with a role, from any thread; a cell may come more
+    // than once.
     template <class F>
     void each(PieceRole role, F&& f) const {
         std::vector<const Asked*> some;
         for (const Asked& a : asked_) {
             if (a.role == role) some.push_back(&a);
         }
-        in_parallel(some, [&](const Asked& a) { cells(a, [&](std::size_t cell) { f(a, cell); }); });
+        job_.threads.for_each(
+            static_cast<std::int64_t>(some.size()), 4, [&](std::int64_t from, std::int64_t to) {
+                for (std::int64_t i = from; i < to; ++i) {
+                    cells(*some[idx(i)], [&](std::size_t cell) { f(*some[idx(i)], cell); });
+                }
+            });
     }
+
+private:
     // The cells that may see a piece.
     template <class F>
     void cells(const Asked& a, F&& f) const {
@@ -100,7 +100,6 @@ public:
         for (std::size_t i = 0; i < idx(grid_.size()); ++i) f(i);
     }
 
-private:
     // Where a set is alone within reach no cell sees pieces of two.
     void drop_lonely(const Window& around) {
         Meetings meetings(around, reach_cells(job_));
@@ -206,23 +205,14 @@ void note(std::int32_t& of_cell, std::int32_t set) {
     }
 }
 
-// Pieces that no candidate sees are hardly ever seen from anywhere, but who knows. Where cells of
-// several sets may see one, these are looked from. A cell that may see nothing else counts as one
-// of the largest set, as it does where that set's pieces are not asked about.
+// Pieces that no candidate sees are hardly ever seen from anywhere, but who knows. Cells of lesser
+// sets that may see one are looked from, as all of theirs are where the largest set's pieces are
+// not asked about: which of the two is done hangs on the block, and must not show. What they see is
+// asked about in the next round.
 void look_for_unseen(const Askers& askers, Raster<std::int32_t>& may_see) {
     Raster<std::int32_t> more(may_see.size(), nothing);
-    std::vector<const Asked*> unseen;
-    for (const Asked& a : askers.asked()) {
-        if (a.role == PieceRole::unseen) unseen.push_back(&a);
-    }
-    askers.in_parallel(unseen, [&](const Asked& a) {
-        std::int32_t sets = nothing;
-        askers.cells(a, [&](std::size_t cell) {
-            const std::int32_t set = may_see[cell] == nothing ? a.set : may_see[cell];
-            if (set >= 0) note(sets, set);
-        });
-        if (sets != several) return;
-        askers.cells(a, [&](std::size_t cell) { note(more[cell], several); });
+    askers.each(PieceRole::unseen, [&](const Asked& a, std::size_t cell) {
+        if (may_see[cell] >= 0 && may_see[cell] != a.set) note(more[cell], several);
     });
     for (std::size_t i = 0; i < more.size(); ++i) {
         if (more[i] == several) may_see[i] = several;
