@@ -19,6 +19,9 @@ int main(int argc, char** argv) {
     try {
         const std::filesystem::path dir = argv[1];
         const std::string name = (dir / "certificate.txt").string();
+        if (!std::filesystem::exists(name)) {
+            throw IoError(name + ": not there; plan again with certificate in output.formats");
+        }
         const Certificate certificate = certificate_of(read_text(name), name);
         const PlanTable plan = read_plan(dir / "plan.h5");
         const auto [tables, entries] = read_candidates(dir, plan.pool);

@@ -162,6 +162,7 @@ RunCheck check_plan(const CoverageTables& t, const CoverageEntries& entries, con
         }
         if (parts > 1) say(k, fmt::format("its stations are {} parts", parts));
         const NetworkProof& proof = certificate.networks[k];
+        if (proof.bound < 0) say(k, "a bound below none says nothing");
         if (proof.bound > stations) say(k, "it needs more stations than it has");
         if (const std::string wrong = proofs.wrong(mine, networks[k], proof); !wrong.empty()) {
             say(k, wrong);

@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-PlanFigures figures_in(const fs::path& dir) {
+// summary.json of a folder with a plan.
+nlohmann::ordered_json summary_in(const fs::path& dir) {
     const fs::path file = dir / "summary.json";
     const bool there = fs::exists(file);
     const auto json = there ? nlohmann::ordered_json::parse(read_text(file), nullptr, false)
@@ -33,7 +34,7 @@ PlanFigures figures_in(const fs::path& dir) {
             "vfplan run has finished",
             dir.string(), dir.string()));
     }
-    return figures_of(json);
+    return json;
 }
 
 std::string shown(const Parameter& p) {
@@ -85,8 +86,11 @@ Comparison compare(const std::vector<fs::path>& dirs) {
     out.names = names_of(dirs);
     std::vector<Config> jobs;
     for (const fs::path& dir : dirs) {
-        jobs.push_back(RunDir(dir).config());
-        out.plans.push_back(figures_in(dir));
+        const auto summary = summary_in(dir);
+        // A plan that was made anew may have been made with more than its folder's job says.
+        const auto plan = summary.value("plan", nlohmann::ordered_json::object());
+        jobs.push_back(RunDir(dir).config(plan.value("set", std::vector<std::string>())));
+        out.plans.push_back(figures_of(summary));
     }
     std::vector<std::vector<Parameter>> lists;
     for (Config& job : jobs) lists.push_back(parameters(job));

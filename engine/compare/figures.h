@@ -20,8 +20,8 @@ struct PlanFigures {
     double links = 0;
     double bridges = 0;
     double articulation_stations = 0;
-    double off_cycle = 0;  // stations that could be on a cycle, and are on none
-    double too_near = 0;   // pairs
+    double off_cycle = 0;  // stations on no cycle
+    double too_near = 0;   // stations
     double wapl = 0;
     double bottleneck_overlap = 0;
     double wall_s = 0;

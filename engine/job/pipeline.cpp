@@ -85,7 +85,9 @@ void write_outputs(const RunDir& dir, const std::vector<std::string>& formats,
 }
 
 // From tables to a plan and all files of it, summary.json last of all.
-std::string plan_of(const RunDir& dir, const Config& config, const Threads& threads, bool alone,
+// `overrides`: what was set beyond the folder's job.
+std::string plan_of(const RunDir& dir, const Config& config,
+                    const std::vector<std::string>& overrides, const Threads& threads, bool alone,
                     Progress& progress) {
     // Until files are written, a search or a proof may take long without a place to stop at. Of
     // several processes none may end by itself: there each window of a search is such a place.
@@ -113,6 +115,7 @@ std::string plan_of(const RunDir& dir, const Config& config, const Threads& thre
     summary.update(summary_of_plan(planned, tables));
     summary["plan"]["method"] = name_of(options.method);
     summary["plan"]["loops"] = options.loops;
+    if (!overrides.empty()) summary["plan"]["set"] = overrides;
     summary["kernel"] = name_of(config.visibility.kernel);
     summary["overlap"] = {{"ratio", name_of(config.overlap.ratio)},
                           {"threshold", config.overlap.threshold}};
@@ -186,8 +189,9 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
                                provenance(config, input_sha256, threads.count(), ranks.count()));
                 };
                 tell();  // a plan that is stopped leaves tables that others may plan from
-                text = options.plan ? plan_of(dir, config, threads, ranks.count() == 1, progress)
-                                    : summary_before_plan(dir, config, progress);
+                text = options.plan
+                           ? plan_of(dir, config, {}, threads, ranks.count() == 1, progress)
+                           : summary_before_plan(dir, config, progress);
                 tell();
             });
         });
@@ -221,16 +225,20 @@ std::string plan_again(const std::filesystem::path& path, const std::filesystem:
     const RunDir dir(out.empty() ? path : out);
     std::optional<FolderLock> source;
     if (!out.empty()) {
+        std::error_code ignored;
+        if (std::filesystem::equivalent(out, path, ignored)) {
+            throw UsageError(fmt::format(
+                "--out {}: is the folder itself; leave --out away to plan in it", out.string()));
+        }
         source.emplace(from, false);
         from.provenance();
-        std::error_code ignored;
         std::filesystem::create_directories(out, ignored);
     }
     const FolderLock lock(dir, true);
     if (!out.empty()) dir.begin_copy(from, kept);
     add_pool(dir, config, threads, Ranks{Ranks::Alone{}}, progress);
     dir.remove_work();
-    return plan_of(dir, config, threads, true, progress);
+    return plan_of(dir, config, overrides, threads, true, progress);
 }
 
 }  // namespace vfplan

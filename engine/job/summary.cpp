@@ -160,6 +160,24 @@ void add_times(Json& j, const Progress& progress) {
     j["peak_rss_mb"] = progress.peak_rss_mb();
 }
 
+namespace {
+
+// What loops and wishes beyond them have added.
+std::string loops_text(const Planned& p) {
+    const std::int64_t survival = p.report.survival ? p.report.survival->stations : 0;
+    const std::int64_t more = p.report.shortcuts + survival;
+    std::string out = fmt::format(": {} before loops", p.report.connected);
+    if (more > 0) {
+        out +=
+            fmt::format(", {} with them", static_cast<std::int64_t>(p.plan.stations.size()) - more);
+    }
+    if (survival != 0) out += fmt::format(", {} to stand a loss", survival);
+    if (p.report.shortcuts > 0) out += fmt::format(", {} for shortcuts", p.report.shortcuts);
+    return out;
+}
+
+}  // namespace
+
 std::string plan_text(const Planned& p, const CoverageTables& t, const Config& config) {
     const Metrics& m = p.metrics;
     std::string out = fmt::format(
@@ -167,10 +185,10 @@ std::string plan_text(const Planned& p, const CoverageTables& t, const Config& c
         "bound        no plan over these {} candidates ({}) has fewer than {}: gap {:.1f} %{}\n"
         "covered      {} of {} coverable pieces, {:.2f} % of their {:.0f} m, by the main network\n",
         p.plan.stations.size(), m.networks, m.networks == 1 ? "" : "s", p.plan.links.size(),
-        p.loops ? fmt::format(", {} before loops", p.report.connected) : "", t.candidates.size(),
-        name_of(t.pool), m.lower_bound, 100 * gap(p.report.connected, m.lower_bound),
-        p.loops ? " before loops" : "", m.pieces_covered, m.pieces_coverable,
-        percent(m.length_covered_m, m.length_coverable_m), m.length_coverable_m);
+        p.loops ? loops_text(p) : "", t.candidates.size(), name_of(t.pool), m.lower_bound,
+        100 * gap(p.report.connected, m.lower_bound), p.loops ? " before loops" : "",
+        m.pieces_covered, m.pieces_coverable, percent(m.length_covered_m, m.length_coverable_m),
+        m.length_coverable_m);
     if (m.networks > 1) out += apart_text(p, config);
     const std::int64_t nobody = t.pieces.size() - m.pieces_coverable;
     if (nobody > 0) {
@@ -199,7 +217,7 @@ std::string plan_text(const Planned& p, const CoverageTables& t, const Config& c
 std::string plan_line(const Planned& p) {
     const Metrics& m = p.metrics;
     return fmt::format(
-        "{} stations in {} network{}, {:.1f} % of the coverable wall in the main one",
+        "{} stations in {} network{}, {:.1f} % of the coverable wall in the main network",
         p.plan.stations.size(), m.networks, m.networks == 1 ? "" : "s",
         percent(m.length_covered_m, m.length_coverable_m));
 }

@@ -42,7 +42,7 @@ struct Metrics : PathMeasures {
     std::vector<std::int64_t> multiplicity;    // pieces seen by k stations, the last: or more
     std::vector<std::int64_t> range_tenths;    // station-piece pairs by tenths of range_max
     std::vector<std::int64_t> incidence_tens;  // the same by 10 degrees of incidence
-    std::int64_t lower_bound = 0;  // of connected plans
+    std::int64_t lower_bound = 0;              // of connected plans
 };
 
 // The share of the stations that no proof says are needed.

@@ -96,6 +96,12 @@ TEST_F(Sweep, CompareNamesWhatDiffersAndRefusesWhatHoldsNoPlan) {
     EXPECT_EQ(out.out.find("overlap.threshold"), std::string::npos);
     EXPECT_EQ(read_csv(scratch / "c.csv").rows.size(), 2U);
     EXPECT_EQ(read_bytes(scratch / "c.png").substr(1, 3), "PNG");
+    // What was set for a plan, not what the job of its folder says.
+    vfplan_expect(0, {"plan", scratch / "one", "--out", scratch / "lower", "--set",
+                      "overlap.threshold=0.25", "--quiet"});
+    const Output lower = vfplan_expect(0, {"compare", scratch / "one", scratch / "lower"});
+    EXPECT_NE(lower.out.find("0.25"), std::string::npos) << lower.out;
+    vfplan_expect(2, {"plan", scratch / "one", "--out", scratch / "one"});
     std::filesystem::remove(scratch / "two/summary.json");
     const Output no = vfplan_expect(2, {"compare", scratch / "one", scratch / "two"});
     EXPECT_NE(no.err.find("holds no plan"), std::string::npos) << no.err;
