@@ -18,6 +18,10 @@ struct Sparse {
     std::span<const std::int32_t> of(std::int32_t i) const {
         return {to.data() + begin[idx(i)], to.data() + begin[idx(i) + 1]};
     }
+    void add_list(std::span<const std::int32_t> list) {
+        to.insert(to.end(), list.begin(), list.end());
+        end_list();
+    }
     void end_list() { begin.push_back(static_cast<std::int64_t>(to.size())); }
 };
 

@@ -185,7 +185,7 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
             ranks.lead([&] {
                 dir.remove_work();
                 const auto tell = [&] {
-                    write_text(dir.file("provenance.json"),
+                    write_text(dir.file(provenance_name),
                                provenance(config, input_sha256, threads.count(), ranks.count()));
                 };
                 tell();  // a plan that is stopped leaves tables that others may plan from

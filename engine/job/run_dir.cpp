@@ -20,7 +20,6 @@ namespace {
 constexpr const char* key_label = "# job ";
 constexpr const char* text_label = "# text ";  // hash of all that follows the line
 constexpr const char* format = "vfplan tables 3\n";
-constexpr const char* provenance_name = "provenance.json";
 
 }  // namespace
 
@@ -159,7 +158,7 @@ void RunDir::remove_run() const {
     remove_plan();
     std::error_code ignored;
     for (const char* name :
-         {"field.h5", "coverage.h5", "pool.h5", "shards", "work", "provenance.json"}) {
+         {"field.h5", "coverage.h5", "pool.h5", "shards", "work", provenance_name}) {
         std::filesystem::remove_all(file(name), ignored);
     }
 }

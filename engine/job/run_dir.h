@@ -11,6 +11,7 @@
 namespace vfplan {
 
 inline constexpr const char* lock_name = ".lock";  // in each run directory
+inline constexpr const char* provenance_name = "provenance.json";
 
 // Hashes that tell jobs apart: the tables depend on the first, the whole run on the second.
 struct JobKeys {

@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/joining/meetings.h"
 #include "kernels/angle.h"
 #include "kernels/index.h"
 
@@ -31,19 +32,17 @@ bool may_reach(const JoinProblem& p, const SeenTotal& total, const SeenRow& row,
 Contested contested_of(const JoinProblem& p, const std::vector<SeenTotal>& totals,
                        const std::vector<std::int32_t>& set, const std::vector<std::int32_t>& kind,
                        double least) {
-    constexpr std::int32_t nobody = -1;
-    constexpr std::int32_t several = -2;
     const OverlapRows& all = p.local.rows;
     const std::vector<double>& length_m = p.local.piece_length_m;
-    std::vector<std::int32_t> seen_from(p.local.piece_length_m.size(), nobody);
+    std::vector<std::int32_t> seen_from(p.local.piece_length_m.size(), sees_nothing);
     for (std::int32_t n = 0; n < all.size(); ++n) {
         if (set[idx(n)] == left_out) continue;
         for (const std::int32_t piece : all.row(n)) {
             std::int32_t& from = seen_from[idx(piece)];
-            from = from == nobody || from == set[idx(n)] ? set[idx(n)] : several;
+            from = seen_together(from, set[idx(n)]);
         }
     }
-    const auto shared = [&](std::int32_t piece) { return seen_from[idx(piece)] == several; };
+    const auto shared = [&](std::int32_t piece) { return seen_from[idx(piece)] == sees_several; };
     // Of equal rows in one set, by lengths, the one that sees least besides overlaps most.
     const bool by_angle = formula(p.rule.ratio).by_angle;
     std::vector<std::int32_t> kept;

@@ -199,9 +199,9 @@ private:
 void note(std::int32_t& of_cell, std::int32_t set) {
     const std::atomic_ref<std::int32_t> cell(of_cell);
     std::int32_t known = cell.load(std::memory_order_relaxed);
-    while (known != set && known != several) {
-        const std::int32_t now = known == nothing ? set : several;
-        if (cell.compare_exchange_weak(known, now, std::memory_order_relaxed)) return;
+    while (
+        seen_together(known, set) != known &&
+        !cell.compare_exchange_weak(known, seen_together(known, set), std::memory_order_relaxed)) {
     }
 }
 

@@ -261,7 +261,7 @@ std::vector<std::int32_t> Leader::seen_by_sets(const State& s) const {
     std::vector<std::int32_t> out(idx(pieces_.size()), nobody);
     const auto see = [&](std::int32_t piece, std::int32_t set) {
         std::int32_t& by = out[idx(piece)];
-        by = by == nobody || by == set ? set : several;
+        by = seen_together(by, set);
     };
     for (const auto& [piece, component] : seen_) {
         see(piece, s.joined.set_of_component[idx(component)]);

@@ -6,6 +6,7 @@
 
 #include "engine/joining/chains.h"
 #include "engine/joining/knowledge.h"
+#include "engine/joining/meetings.h"
 #include "engine/joining/row_store.h"
 #include "engine/tables/shards.h"
 #include "io/tables/candidate_list.h"
@@ -36,8 +37,8 @@ public:
     Apart apart(int rounds, const CandidateList& list);
 
 private:
-    static constexpr std::int32_t nobody = -1;
-    static constexpr std::int32_t several = -2;
+    static constexpr std::int32_t nobody = sees_nothing;
+    static constexpr std::int32_t several = sees_several;
 
     // What follows from the cells that are known to be disputed.
     struct State {

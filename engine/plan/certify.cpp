@@ -43,21 +43,15 @@ Certificate certify(const Threads& threads, const PlanInput& in, const PlanOptio
                     std::vector<Network>& networks) {
     Certificate out;
     out.networks.resize(networks.size());
-    threads.for_each(static_cast<std::int64_t>(networks.size()), 1,
-                     [&](std::int64_t from, std::int64_t to) {
-                         NetworkProblems problems(in);
-                         for (std::int64_t n = from; n < to; ++n) {
-                             Network& network = networks[idx(n)];
-                             const Problem problem =
-                                 problems.of(network.members, owner, static_cast<std::int32_t>(n),
-                                             fixed, ProblemRows::needed);
-                             out.networks[idx(n)] =
-                                 options.method == PlanMethod::certified
-                                     ? certify_one(options, problem, problems, network)
-                                     : fast_proof(problem, problems, network,
-                                                  columns_of(network.members, network.connected));
-                         }
-                     });
+    each_network(threads, in, networks.size(), [&](NetworkProblems& problems, std::int64_t n) {
+        Network& network = networks[idx(n)];
+        const Problem problem = problems.of(network.members, owner, static_cast<std::int32_t>(n),
+                                            fixed, ProblemRows::needed);
+        out.networks[idx(n)] = options.method == PlanMethod::certified
+                                   ? certify_one(options, problem, problems, network)
+                                   : fast_proof(problem, problems, network,
+                                                columns_of(network.members, network.connected));
+    });
     return out;
 }
 

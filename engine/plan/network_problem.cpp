@@ -60,11 +60,7 @@ private:
 // Keeps the lists with these numbers, which ascend.
 void keep(const std::vector<std::int32_t>& numbers, Sparse& lists) {
     Sparse out;
-    for (const std::int32_t i : numbers) {
-        const auto list = lists.of(i);
-        out.to.insert(out.to.end(), list.begin(), list.end());
-        out.end_list();
-    }
+    for (const std::int32_t i : numbers) out.add_list(lists.of(i));
     lists = std::move(out);
 }
 
@@ -127,9 +123,7 @@ void NetworkProblems::add_part(const Members& members, std::size_t from, std::si
     }
     part.columns_of = transposed(part.rows_of, static_cast<std::int32_t>(first.size()));
     const auto add = [&](std::int32_t r) {
-        const auto list = part.columns_of.of(r);
-        columns_of.to.insert(columns_of.to.end(), list.begin(), list.end());
-        columns_of.end_list();
+        columns_of.add_list(part.columns_of.of(r));
         piece_.push_back(first[idx(r)]);
     };
     if (rows == ProblemRows::needed) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/plan/workspace.h"
+#include "engine/runtime/parallel.h"
 #include "engine/search/problem.h"
 
 namespace vfplan {
@@ -62,6 +63,16 @@ private:
     std::vector<std::int32_t> class_;   // of pieces; `done` where their part was added
     std::vector<std::int32_t> piece_;   // of rows
 };
+
+// Calls f(problems, n) for each of so many networks, from any thread, with room that is its own.
+template <class F>
+void each_network(const Threads& threads, const PlanInput& input, std::size_t networks, F&& f) {
+    threads.for_each(static_cast<std::int64_t>(networks), 1,
+                     [&](std::int64_t from, std::int64_t to) {
+                         NetworkProblems problems(input);
+                         for (std::int64_t n = from; n < to; ++n) f(problems, n);
+                     });
+}
 
 // The columns of chosen candidates. REQUIRES: they are among the members.
 Choice columns_of(const std::vector<std::int32_t>& members, const Chosen& chosen);

@@ -109,20 +109,16 @@ Certificate refine(const Threads& threads, const PlanInput& in, const PlanOption
         progress->expect(options.loops ? 2 * steps : steps);
         search.done = [&](std::int64_t some) { progress->advance(some); };
     }
-    threads.for_each(
-        static_cast<std::int64_t>(networks.size()), 1, [&](std::int64_t from, std::int64_t to) {
-            NetworkProblems problems(in);
-            for (std::int64_t n = from; n < to; ++n) {
-                Network& network = networks[idx(n)];
-                Problem problem = problems.of(network.members, owner, static_cast<std::int32_t>(n),
-                                              fixed, ProblemRows::needed);
-                problem.beside = too_near(in, network.members, options.min_spacing_m);
-                SearchOptions mine = search;
-                mine.seed = static_cast<std::uint64_t>(n);
-                proofs.networks[idx(n)] =
-                    refine_one(threads, in, options, mine, problem, problems, network);
-            }
-        });
+    each_network(threads, in, networks.size(), [&](NetworkProblems& problems, std::int64_t n) {
+        Network& network = networks[idx(n)];
+        Problem problem = problems.of(network.members, owner, static_cast<std::int32_t>(n), fixed,
+                                      ProblemRows::needed);
+        problem.beside = too_near(in, network.members, options.min_spacing_m);
+        SearchOptions mine = search;
+        mine.seed = static_cast<std::uint64_t>(n);
+        proofs.networks[idx(n)] =
+            refine_one(threads, in, options, mine, problem, problems, network);
+    });
     return proofs;
 }
 
@@ -145,11 +141,7 @@ std::int64_t make_surviving(const Threads& threads, const PlanInput& in, const P
         for (const std::int32_t c : plan) network.chosen.push_back(network.members[idx(c)]);
         more[idx(n)] = static_cast<std::int64_t>(plan.size()) - stations;
     };
-    threads.for_each(static_cast<std::int64_t>(networks.size()), 1,
-                     [&](std::int64_t from, std::int64_t to) {
-                         NetworkProblems problems(in);
-                         for (std::int64_t n = from; n < to; ++n) one(problems, n);
-                     });
+    each_network(threads, in, networks.size(), one);
     return std::accumulate(more.begin(), more.end(), std::int64_t{0});
 }
 

@@ -125,8 +125,7 @@ Window make_window(const Problem& p, const Choosing& plan,
     }
     for (std::vector<std::int32_t>& list : to_node) {
         std::sort(list.begin(), list.end());
-        q.near.to.insert(q.near.to.end(), list.begin(), list.end());
-        q.near.end_list();
+        q.near.add_list(list);
         q.rows_of.end_list();
         if (p.beside.size() > 0) q.beside.end_list();
         q.fixed.push_back(1);
