@@ -13,7 +13,7 @@
 #include <limits>
 
 #include "engine/config/options.h"
-#include "engine/job/run_dir.h"
+#include "engine/folder/run_dir.h"
 #include "engine/tables/scenes.h"
 #include "io/tables/coverage_file.h"
 #include "io/tables/field_file.h"

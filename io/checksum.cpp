@@ -1,6 +1,7 @@
 #include "io/checksum.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -8,6 +9,7 @@
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -39,16 +41,22 @@ bool add_checksum(const std::filesystem::path& path) {
 
 std::string checked_hash(const std::filesystem::path& path) {
     // Once for each state of a file: shards are read many times.
-    using State = std::pair<std::uintmax_t, std::filesystem::file_time_type>;
+    using State = std::tuple<dev_t, ino_t, off_t, time_t, long>;
     static std::mutex guard;
     static std::map<std::string, std::pair<State, std::string>> known;
-    std::error_code error;
-    const State state{std::filesystem::file_size(path, error),
-                      std::filesystem::last_write_time(path, error)};
-    if (error) {
+    struct stat status {};
+    if (::lstat(path.c_str(), &status) != 0) {
         throw IoError(
             fmt::format("{}: no such file; is this the folder of a finished run?", path.string()));
     }
+    if (!S_ISREG(status.st_mode)) {
+        throw IoError(fmt::format(
+            "{}: {}, and what belongs to a run lies in its folder; put the file itself there",
+            path.string(), S_ISLNK(status.st_mode) ? "a symbolic link" : "no file"));
+    }
+    const State state{status.st_dev, status.st_ino, status.st_size, status.st_mtim.tv_sec,
+                      status.st_mtim.tv_nsec};
+    const auto size = static_cast<std::uintmax_t>(status.st_size);
     {
         const std::lock_guard lock(guard);
         const auto found = known.find(path.string());
@@ -58,10 +66,10 @@ std::string checked_hash(const std::filesystem::path& path) {
         throw IoError(fmt::format("{}: cannot be read: {}; check its permissions", path.string(),
                                   std::strerror(errno)));
     }
-    if (state.first < trailer_size) damaged(path, "too short for a whole file");
+    if (size < trailer_size) damaged(path, "too short for a whole file");
     Sha256 hash;
     std::ifstream in(path, std::ios::binary);
-    std::uintmax_t left = state.first - trailer_size;
+    std::uintmax_t left = size - trailer_size;
     std::vector<char> buffer(1U << 20);
     while (left > 0 && in) {
         in.read(buffer.data(),

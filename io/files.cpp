@@ -1,6 +1,5 @@
 #include "io/files.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -12,73 +11,65 @@
 #include "kernels/error.h"
 
 namespace vfplan {
-namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, const char* what) {
-    throw IoError(fmt::format("{}: cannot {}: {}; check free space and permissions", file.string(),
-                              what, std::strerror(errno)));
+std::string advice_on(int error) {
+    switch (error) {
+        case ENOSPC:
+        case EDQUOT:
+            return "the disk is full: free space there and run again";
+        case EFBIG:
+            return "no file may be so large here: raise the limit (ulimit -f) and run again";
+        case EMFILE:
+        case ENFILE:
+            return "too many files are open: raise the limit (ulimit -n) and run again";
+        case ENOMEM:
+            return "there is not enough memory: free some and run again";
+        default:
+            return "check free space and permissions";
+    }
 }
 
-void sync(const std::filesystem::path& file, int flags) {
-    const int fd = ::open(file.c_str(), flags);
-    if (fd < 0) fail(file, "open");
-    const bool good = ::fsync(fd) == 0;
-    ::close(fd);
-    if (!good) fail(file, "sync");
+void fail_on_file(const std::filesystem::path& file, const std::string& what, int error) {
+    throw IoError(fmt::format("{}: cannot {}: {}; {}", file.string(), what, std::strerror(error),
+                              advice_on(error)));
 }
-
-}  // namespace
 
 std::string read_text(const std::filesystem::path& file) {
+    errno = 0;
     std::ifstream in(file, std::ios::binary);
-    if (!in) fail(file, "open");
+    if (!in) fail_on_file(file, "open", errno);
     std::ostringstream out;
     out << in.rdbuf();
-    if (in.bad()) fail(file, "read");
+    if (in.bad()) fail_on_file(file, "read", errno);
     return out.str();
 }
 
-TextFile::TextFile(std::filesystem::path file) : file_(std::move(file)), aside_(file_) {
-    aside_ += ".tmp";
-    out_.open(aside_, std::ios::binary | std::ios::trunc);
-    if (!out_) fail(file_, "write");
-}
+TextFile::TextFile(std::filesystem::path file)
+    : file_(std::move(file)), aside_(file_), out_(aside_.create()) {}
 
 TextFile::~TextFile() {
-    if (!out_.is_open()) return;
-    out_.close();
-    std::error_code ignored;
-    std::filesystem::remove(aside_, ignored);
+    if (out_ >= 0) ::close(out_);
 }
 
 void TextFile::add(const std::string& text) {
-    out_.write(text.data(), static_cast<std::streamsize>(text.size()));
-    if (!out_) fail(file_, "write");
+    for (std::size_t done = 0; done < text.size();) {
+        const ssize_t n = ::write(out_, text.data() + done, text.size() - done);
+        if (n < 0 && errno != EINTR) fail_on_file(file_, "write", errno);
+        if (n > 0) done += static_cast<std::size_t>(n);
+    }
 }
 
 void TextFile::close() {
-    out_.flush();
-    if (!out_) fail(file_, "write");
-    out_.close();
-    publish(aside_, file_);
+    const int error = ::close(out_) == 0 ? 0 : errno;
+    out_ = -1;
+    if (error != 0) fail_on_file(file_, "write", error);
+    aside_.publish();
 }
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
     TextFile out(file);
     out.add(text);
     out.close();
-}
-
-void publish(const std::filesystem::path& aside, const std::filesystem::path& file) {
-    sync(aside, O_RDONLY);
-    std::error_code error;
-    std::filesystem::rename(aside, file, error);
-    if (error) {
-        errno = error.value();
-        fail(file, "rename into place");
-    }
-    const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-    sync(folder, O_RDONLY | O_DIRECTORY);
 }
 
 }  // namespace vfplan

@@ -2,10 +2,18 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
+#include "io/aside.h"
+
 namespace vfplan {
+
+// Throws an IoError that says what could not be done with a file, why (`error` as errno has it) and
+// what to do about it.
+[[noreturn]] void fail_on_file(const std::filesystem::path& file, const std::string& what,
+                               int error);
+// What to do about it, without the file: "the disk is full: free space there and run again".
+std::string advice_on(int error);
 
 // Reads a text file. Throws IoError.
 std::string read_text(const std::filesystem::path& file);
@@ -25,11 +33,8 @@ public:
 
 private:
     std::filesystem::path file_;
-    std::filesystem::path aside_;
-    std::ofstream out_;
+    Aside aside_;
+    int out_ = -1;
 };
-
-// Gives a finished file its name: sync, rename, sync the folder. Throws IoError.
-void publish(const std::filesystem::path& aside, const std::filesystem::path& file);
 
 }  // namespace vfplan

@@ -49,9 +49,14 @@ inline hid_t type_of<std::int64_t>() {
 }
 
 // No messages of the library's own, which it would print for each thread; and nothing of it at the
-// program's end, where it would fall over a file that could not be closed because the disk is full.
+// program's end, where it would fall over a file that could not be closed because the disk is full;
+// and no code from elsewhere, which a file may ask for as a filter.
 // To be called before anything else in each thread.
 void be_quiet();
+
+// What the system said when the library's last call failed, as errno has it; 0 where it said
+// nothing.
+int system_error();
 
 // The types that datasets have.
 #define VFPLAN_EACH_H5_TYPE(DO) \

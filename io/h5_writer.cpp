@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <map>
+#include <memory>
 #include <numeric>
 
+#include "io/aside.h"
 #include "io/checksum.h"
 #include "io/chunks.h"
 #include "io/files.h"
@@ -43,9 +46,8 @@ struct Open {
 
 struct Writer::Impl {
     std::filesystem::path path;
-    std::filesystem::path aside;
+    Aside aside;
     hid_t file = -1;
-    bool published = false;
     std::map<std::string, Open> open = {};
 
     void write_chunk(const std::string& name, Open& o, const std::uint8_t* data) const {
@@ -88,12 +90,11 @@ struct Writer::Impl {
 
     [[noreturn]] void fail(const std::string& what) const {
         constexpr std::uintmax_t next_to_nothing = 1U << 20U;
+        int why = system_error();
         std::error_code error;
         const auto space = std::filesystem::space(path.parent_path(), error);
-        const bool full = !error && space.available < next_to_nothing;
-        throw IoError(fmt::format("{}: cannot write {}; {}", path.string(), what,
-                                  full ? "the disk is full: free space there and run again"
-                                       : "check free space and permissions"));
+        if (why == 0 && !error && space.available < next_to_nothing) why = ENOSPC;
+        throw IoError(fmt::format("{}: cannot write {}; {}", path.string(), what, advice_on(why)));
     }
     void attribute(const std::string& object, const std::string& name, hid_t type, hid_t space,
                    const void* value) const {
@@ -103,21 +104,19 @@ struct Writer::Impl {
     }
 };
 
-Writer::Writer(std::filesystem::path path) : impl_(new Impl{std::move(path), {}, -1, false, {}}) {
+Writer::Writer(std::filesystem::path path) {
     be_quiet();
-    impl_->aside = impl_->path;
-    impl_->aside += ".tmp";
+    impl_ = new Impl{path, Aside(path)};
     const Id create(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     H5Pset_obj_track_times(create, false);
     H5Pset_link_creation_order(create, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
     const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V110);
-    impl_->file = H5Fcreate(impl_->aside.c_str(), H5F_ACC_TRUNC, create, access);
+    // Exclusively: not through a link, not over what lies there.
+    impl_->file = H5Fcreate(impl_->aside.path().c_str(), H5F_ACC_EXCL, create, access);
     if (impl_->file < 0) {
-        const Impl kept = *impl_;
-        delete impl_;
-        impl_ = nullptr;
-        kept.fail("the file");
+        const std::unique_ptr<Impl> kept(std::exchange(impl_, nullptr));
+        kept->fail("the file");
     }
 }
 
@@ -127,8 +126,6 @@ Writer::~Writer() {
         for (auto& [name, o] : impl_->open) H5Dclose(o.set);
         H5Fclose(impl_->file);
     }
-    std::error_code ignored;
-    if (!impl_->published) std::filesystem::remove(impl_->aside, ignored);
     delete impl_;
 }
 
@@ -289,9 +286,8 @@ void Writer::close() {
         impl_->fail("the file to its end");
     }
     impl_->file = -1;
-    if (!add_checksum(impl_->aside)) impl_->fail("the file to its end");
-    publish(impl_->aside, impl_->path);
-    impl_->published = true;
+    if (!add_checksum(impl_->aside.path())) impl_->fail("the file to its end");
+    impl_->aside.publish();
 }
 
 #define VFPLAN_OF_TYPE(T)                                                                        \

@@ -9,17 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "io/h5_reader.h"
+
 namespace vfplan::h5 {
-
-using Dims = std::vector<std::uint64_t>;
-
-// A dataset of another file as a part of a virtual one.
-struct Source {
-    std::string file;  // relative to the file with the virtual dataset
-    std::string dataset;
-    Dims offset;  // where in the virtual dataset it stands
-    Dims shape;
-};
 
 // Writes one file. Throws IoError, naming the file, on any failure; without close() nothing
 // appears under the final name. One file belongs to one thread; several may be written at once, and

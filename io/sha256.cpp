@@ -38,6 +38,7 @@ std::string sha256_of_file(const std::filesystem::path& file) {
         in.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
         hash.add(buffer.data(), static_cast<std::size_t>(in.gcount()));
     }
+    if (in.bad()) throw IoError(fmt::format("{}: cannot be read to its end", file.string()));
     return hash.hex();
 }
 

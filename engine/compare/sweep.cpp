@@ -8,7 +8,7 @@
 
 #include "engine/config/parameters.h"
 #include "engine/job/pipeline.h"
-#include "engine/job/run_dir.h"
+#include "engine/folder/run_dir.h"
 #include "engine/runtime/progress.h"
 #include "io/files.h"
 #include "kernels/error.h"

@@ -7,11 +7,14 @@
 #include <optional>
 
 #include "engine/config/parameters.h"
-#include "engine/job/claim.h"
+#include "engine/folder/claim.h"
+#include "engine/folder/contents.h"
+#include "engine/folder/input_state.h"
+#include "engine/folder/publication.h"
+#include "engine/folder/run_dir.h"
 #include "engine/job/estimate.h"
 #include "engine/job/needs.h"
 #include "engine/job/result_hash.h"
-#include "engine/job/run_dir.h"
 #include "engine/job/summary.h"
 #include "engine/job/tables.h"
 #include "engine/plan/planning.h"
@@ -29,25 +32,24 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void write_json(const std::filesystem::path& file, const Json& json) {
-    write_text(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-}
-
 // From a site to its tables, on all ranks: field.h5 and coverage.h5, as far as they are missing.
-void tables_of(const RunDir& dir, const Config& config, const JobKeys& keys, bool plan,
-               const Threads& threads, const Ranks& ranks, Progress& progress) {
+void tables_of(const RunDir& dir, const Config& config, const JobKeys& keys,
+               const InputState& input, bool plan, const Threads& threads, const Ranks& ranks,
+               Progress& progress) {
     ranks.lead([&] {
         if (tables_complete(dir.path(), keys.tables, progress)) return;
         dir.remove_plan();
         const GroundOptions ground = ground_options(config);
-        make_site(ground, dir.path(), keys.tables, threads, progress,
-                  [&](const Site& site, const Layout& layout) {
-                      const auto pieces = cut_into_pieces(site.walls, ground.partition_m).size();
-                      check_memory(ground, layout, pieces, plan, memory_limit());
-                  });
+        make_site(
+            ground, dir.path(), keys.tables, threads, progress,
+            [&](const Site& site, const Layout& layout) {
+                const auto pieces = cut_into_pieces(site.walls, ground.partition_m).size();
+                check_memory(ground, layout, pieces, plan, memory_limit());
+            },
+            [&] { input.check_unchanged(); });
     });
-    if (std::filesystem::exists(dir.file("field.h5")) &&
-        std::filesystem::exists(dir.file("coverage.h5"))) {
+    if (std::filesystem::exists(dir.file(field_name)) &&
+        std::filesystem::exists(dir.file(coverage_name))) {
         progress.note("tables       of this job are complete in the folder and used as they are");
         return;
     }
@@ -84,18 +86,19 @@ void write_outputs(const RunDir& dir, const std::vector<std::string>& formats,
                      });
 }
 
-// From tables to a plan and all files of it, summary.json last of all.
-// `overrides`: what was set beyond the folder's job.
+// From tables to a plan and all files of it, published as one. `overrides`: what was set beyond the
+// folder's job. `before_publishing`: writes what else belongs to the plan.
 std::string plan_of(const RunDir& dir, const Config& config,
                     const std::vector<std::string>& overrides, const Threads& threads, bool alone,
-                    Progress& progress) {
+                    Progress& progress, const std::function<void()>& before_publishing = {}) {
     // Until files are written, a search or a proof may take long without a place to stop at. Of
     // several processes none may end by itself: there each window of a search is such a place.
     std::optional<SignalsEnd> at_once;
     if (alone) at_once.emplace();
     const Threads planning(threads.count(), stop_if_asked);
     progress.stage("read");
-    const FieldFile field(dir.file("field.h5"));
+    const FieldFile field(dir.file(field_name));
+    dir.check_job(field.info().key);
     const PlanOptions options = plan_options(config);
     const Candidates candidates = read_candidates(dir.path(), options.candidates);
     const CoverageTables& tables = candidates.tables;
@@ -105,7 +108,8 @@ std::string plan_of(const RunDir& dir, const Config& config,
                                           options, config.scanner.range_max_m, planning, progress);
     at_once.reset();
     progress.stage("files");
-    write_plan(dir.file("plan.h5"),
+    withdraw_plan(dir.path());
+    write_plan(dir.file(plan_name),
                {planned.plan, tables.key, options.overlap, options.candidates, options.survive});
     write_outputs(dir, config.output.formats,
                   {field, tables, planned.plan, config.site.input.filename().string(),
@@ -123,22 +127,23 @@ std::string plan_of(const RunDir& dir, const Config& config,
     summary["result_sha256"] = result_hash(field, tables, entries, planned.plan);
     progress.finish();
     add_times(summary, progress);
-    write_json(dir.file("summary.json"), summary);
+    if (before_publishing) before_publishing();
+    publish_plan(dir.path(), std::move(summary));
     return plan_text(planned, tables, config);
 }
 
 // For precompute: what there is before a plan.
 std::string summary_before_plan(const RunDir& dir, const Config& config, Progress& progress) {
     progress.stage("read");
-    const FieldFile field(dir.file("field.h5"));
-    const CoverageTables tables = read_coverage(dir.file("coverage.h5"));
+    const FieldFile field(dir.file(field_name));
+    const CoverageTables tables = read_coverage(dir.file(coverage_name));
     Json summary = summary_of_tables(field, tables);
     summary["candidates"] = tables.candidates.size();
     summary["pieces"] = tables.pieces.size();
     summary["kernel"] = name_of(config.visibility.kernel);
     progress.finish();
     add_times(summary, progress);
-    write_json(dir.file("summary.json"), summary);
+    publish_plan(dir.path(), std::move(summary));
     return fmt::format("tables       {} candidates x {} pieces\n", tables.candidates.size(),
                        tables.pieces.size());
 }
@@ -167,8 +172,8 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
     const Threads threads(options.threads);
     const RunDir dir(options.out);
     progress.stage("site");
-    const std::string input_sha256 = input_hash(config);
-    const JobKeys keys = job_keys(config, input_sha256);
+    const InputState input(config);
+    const JobKeys keys = job_keys(config, input.sha256());
     std::string text;
     if (options.dry_run) {
         ranks.lead(
@@ -178,7 +183,7 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
     run_in_folder(
         dir, config, keys, options.fresh, ranks,
         [&] {
-            tables_of(dir, config, keys, options.plan, threads, ranks, progress);
+            tables_of(dir, config, keys, input, options.plan, threads, ranks, progress);
             add_pool(dir, config, threads, ranks, progress);
         },
         [&] {
@@ -186,13 +191,12 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
                 dir.remove_work();
                 const auto tell = [&] {
                     write_text(dir.file(provenance_name),
-                               provenance(config, input_sha256, threads.count(), ranks.count()));
+                               provenance(config, input.sha256(), threads.count(), ranks.count()));
                 };
                 tell();  // a plan that is stopped leaves tables that others may plan from
                 text = options.plan
-                           ? plan_of(dir, config, {}, threads, ranks.count() == 1, progress)
+                           ? plan_of(dir, config, {}, threads, ranks.count() == 1, progress, tell)
                            : summary_before_plan(dir, config, progress);
-                tell();
             });
         });
     if (!ranks.leader()) return "";
@@ -221,6 +225,8 @@ std::string plan_again(const std::filesystem::path& path, const std::filesystem:
     const Threads threads(thread_count);
     const RunDir from(path);
     const Config config = from.config(overrides);
+    from.check_ours();
+    refuse_links(path);
     check_overlap(from.config(), config, path);
     const RunDir dir(out.empty() ? path : out);
     std::optional<FolderLock> source;
@@ -230,11 +236,12 @@ std::string plan_again(const std::filesystem::path& path, const std::filesystem:
             throw UsageError(fmt::format(
                 "--out {}: is the folder itself; leave --out away to plan in it", out.string()));
         }
-        source.emplace(from, false);
+        source.emplace(path, FolderLock::Hold::copy);
         from.provenance();
         std::filesystem::create_directories(out, ignored);
     }
-    const FolderLock lock(dir, true);
+    if (!dir.holds_nothing()) dir.check_ours();
+    const FolderLock lock(dir.path(), FolderLock::Hold::lead);
     if (!out.empty()) dir.begin_copy(from, kept);
     add_pool(dir, config, threads, Ranks{Ranks::Alone{}}, progress);
     dir.remove_work();

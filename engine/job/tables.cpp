@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "engine/folder/contents.h"
 #include "engine/joining/components.h"
 #include "engine/joining/connectors.h"
 #include "engine/joining/joins.h"
@@ -24,7 +25,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* field_name = "field.h5";
 constexpr const char* index_phase = "tables";
 
 // What the field cost in operations. For the rays "steps" are rays.

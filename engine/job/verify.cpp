@@ -10,8 +10,11 @@
 #include <unordered_map>
 
 #include "engine/check/run_check.h"
+#include "engine/folder/contents.h"
+#include "engine/folder/input_state.h"
+#include "engine/folder/publication.h"
+#include "engine/folder/run_dir.h"
 #include "engine/job/reread.h"
-#include "engine/job/run_dir.h"
 #include "engine/tables/scenes.h"
 #include "io/tables/coverage_file.h"
 #include "io/tables/field_file.h"
@@ -304,6 +307,14 @@ bool fits(const CoverageTables& t, const Plan& plan) {
     return good;
 }
 
+// Every file of the plan as it was published, and job.toml of the job that made the tables.
+void check_published(const RunDir& dir, const std::string& tables_key, Checks& checks) {
+    const std::vector<std::string> faults = faults_since_published(dir.path());
+    for (const std::string& fault : faults) checks.add(false, fault);
+    if (faults.empty()) checks.add(true, "all files of the plan are as they were published");
+    dir.check_job(tables_key);
+}
+
 // The walls against the site's own file, when it is still what it was.
 void check_site(const Config& config, const CoverageTables& t, const FieldFile& field,
                 Checks& checks) {
@@ -313,7 +324,7 @@ void check_site(const Config& config, const CoverageTables& t, const FieldFile& 
                                 config.site.input.string()));
         return;
     }
-    if (job_keys(config, input_hash(config)).tables != t.key) {
+    if (job_keys(config, InputState(config).sha256()).tables != t.key) {
         checks.note(fmt::format("{} has changed: walls were not compared with it",
                                 config.site.input.string()));
         return;
@@ -329,16 +340,17 @@ VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Pro
     const RunDir dir(path);
     const Config config = dir.config();
     progress.stage("read");
-    const FieldFile field(dir.file("field.h5"));
-    if (!std::filesystem::exists(dir.file("plan.h5"))) {
+    const FieldFile field(dir.file(field_name));
+    if (!std::filesystem::exists(dir.file(plan_name))) {
         throw IoError(fmt::format("{}: tables, but no plan.h5 yet; make it with vfplan plan {}",
                                   path.string(), path.string()));
     }
-    const PlanTable table = read_plan(dir.file("plan.h5"));
+    Checks checks;
+    check_published(dir, field.info().key, checks);
+    const PlanTable table = read_plan(dir.file(plan_name));
     const Candidates candidates = read_candidates(dir.path(), table.pool);
     const CoverageTables& t = candidates.tables;
     const CoverageEntries& entries = candidates.entries;
-    Checks checks;
     checks.add(table.key == t.key && field.info().key == t.key,
                "field, coverage and plan belong to one job");
     checks.add(fits(t, table.plan), "the plan's numbers point into its tables");

@@ -17,6 +17,8 @@
 #include <sanitizer/tsan_interface.h>
 #endif
 
+#include "engine/runtime/limits.h"
+
 namespace vfplan {
 namespace {
 
@@ -87,8 +89,8 @@ int quota_threads() {
 }
 
 int default_threads() {
-    if (const int n = slurm_threads(); n > 0) return n;
     const int affine = affinity_threads();
+    if (const int n = slurm_threads(); n > 0) return std::min(n, affine);
     const int quota = quota_threads();
     return quota > 0 ? std::min(affine, quota) : affine;
 }
@@ -105,6 +107,7 @@ struct Threads::Impl {
 
 Threads::Threads(int count, std::function<void()> may_go_on)
     : may_go_on_(std::move(may_go_on)), count_(count > 0 ? count : default_threads()) {
+    check_threads(count_);
     impl_ = std::make_unique<Impl>(count_);
 }
 

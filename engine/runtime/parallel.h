@@ -10,8 +10,9 @@ namespace vfplan {
 // A set of threads. Results must be written by index, so that their number changes nothing.
 class Threads {
 public:
-    // 0: SLURM_CPUS_PER_TASK, else the processors that this process may use, capped by the
-    // control group's quota (which TBB does not look at).
+    // 0: SLURM_CPUS_PER_TASK, at most the processors that this process may use; else these, capped
+    // by the control group's quota (which TBB does not look at). Throws IoError when so many cannot
+    // be started.
     explicit Threads(int count = 0) : Threads(count, {}) {}
     // `may_go_on` is called before every part of every loop, which are then no longer than the
     // grain, from any thread; what it throws ends the loop.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
+#include <system_error>
 
 #include "engine/runtime/stop.h"
 
@@ -36,6 +37,16 @@ double resident_mb() {
     return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1U << 20U);
 }
 
+// Without a thread where none can be had: memory is then looked at less often.
+template <class Body>
+std::jthread started(Body&& body) {
+    try {
+        return std::jthread(std::forward<Body>(body));
+    } catch (const std::system_error&) {
+        return {};
+    }
+}
+
 }  // namespace
 
 Moment Moment::now() { return {seconds(CLOCK_MONOTONIC), seconds(CLOCK_PROCESS_CPUTIME_ID)}; }
@@ -45,11 +56,11 @@ Progress::Progress(bool quiet, bool follower)
       terminal_(isatty(STDERR_FILENO) != 0),
       begin_(Moment::now()),
       stage_begin_(begin_),
-      watcher_([this](const std::stop_token& stop) { watch_memory(stop); }) {}
+      watcher_(started([this](const std::stop_token& stop) { watch_memory(stop); })) {}
 
 Progress::~Progress() {
     watcher_.request_stop();
-    watcher_.join();
+    if (watcher_.joinable()) watcher_.join();
 }
 
 void Progress::watch_memory(const std::stop_token& stop) {

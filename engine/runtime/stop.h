@@ -1,5 +1,6 @@
-// Polite ends: SIGTERM, SIGINT and SIGUSR1 are noted, and the work stops where it can be taken up
-// again.
+// Polite ends: SIGTERM, SIGINT, SIGHUP and SIGUSR1 are noted, and the work stops where it can be
+// taken up again; where that takes longer than some seconds, the program ends all the same, without
+// the task at hand. Either way with exit code 75.
 #pragma once
 
 #include "kernels/error.h"
@@ -11,9 +12,13 @@ struct Stopped : Error {
     explicit Stopped(const std::string& m) : Error(Exit::stopped, m) {}
 };
 
-// From now on the signals set a mark. A second SIGTERM or SIGINT ends the program at once; SIGUSR1
-// never does: mpirun forwards it as it comes, where it makes a kill of SIGTERM, and a batch script
-// can send it beside the SIGTERM that Slurm sends.
+// Seconds from a signal to the end at the latest.
+inline constexpr unsigned grace_s = 6;
+
+// From now on the signals set a mark. A second SIGTERM, SIGINT or SIGHUP ends the program at once;
+// SIGUSR1 does not: mpirun forwards it as it comes, where it makes a kill of SIGTERM, and a batch
+// script can send it beside the SIGTERM that Slurm sends. A signal that was ignored before (nohup)
+// stays so. What is in the making when the program ends at once is removed.
 void watch_signals();
 
 // True when a signal has come. Thread-safe.

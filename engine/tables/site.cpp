@@ -178,7 +178,8 @@ void check_free_cells(const GroundOptions& o, std::int64_t free_cells) {
 
 void store_site(const GroundOptions& o, const std::string& key, const Site& site,
                 const std::vector<NarrowPlace>& narrow, const Threads& threads,
-                const std::filesystem::path& path, bool may_be_none) {
+                const std::filesystem::path& path, bool may_be_none,
+                const std::function<void()>& may_store) {
     const Layout layout = layout_of(o, site);
     const auto bits = standable_bits(o, site, layout, threads);
     SiteFacts facts;
@@ -201,6 +202,7 @@ void store_site(const GroundOptions& o, const std::string& key, const Site& site
                             {"free_cells", facts.free_cells},
                             {"cell_m", layout.grid.cell_m}}}};
     facts.summary = summary.dump();
+    if (may_store) may_store();
     write_site_store(
         path, key, layout, facts, site.walls, pieces,
         near_walls(layout, site.walls, wall_reach_m(o.range_max_m, o.partition_m, o.site.snap_m)),
@@ -209,7 +211,8 @@ void store_site(const GroundOptions& o, const std::string& key, const Site& site
 
 void make_site(const GroundOptions& options, const std::filesystem::path& dir,
                const std::string& key, const Threads& threads, Progress& progress,
-               const std::function<void(const Site&, const Layout&)>& may_begin) {
+               const std::function<void(const Site&, const Layout&)>& may_begin,
+               const std::function<void()>& may_store) {
     const std::filesystem::path file = dir / "work" / "site.h5";
     if (have_shard(file, key, progress)) return;
     {
@@ -218,7 +221,7 @@ void make_site(const GroundOptions& options, const std::filesystem::path& dir,
         may_begin(site, layout);
         const std::vector<NarrowPlace> narrow = narrow_places(options, site, layout, threads);
         if (!narrow.empty()) progress.note(narrow_text(narrow, options, site));
-        store_site(options, key, site, narrow, threads, file);
+        store_site(options, key, site, narrow, threads, file, false, may_store);
     }
     malloc_trim(0);  // of what reading took, nothing is needed any more
 }

@@ -16,10 +16,12 @@
 namespace vfplan {
 
 // Phase "site": reads and checks the site and writes its store, on the leader alone, unless it is
-// there. Between the two, `may_begin` may refuse the job. Throws as read_ground() and store_site().
+// there. Between the two, `may_begin` may refuse the job; when all files were read and nothing is
+// stored yet, `may_store`. Throws as read_ground() and store_site().
 void make_site(const GroundOptions& options, const std::filesystem::path& dir,
                const std::string& key, const Threads& threads, Progress& progress,
-               const std::function<void(const Site&, const Layout&)>& may_begin);
+               const std::function<void(const Site&, const Layout&)>& may_begin,
+               const std::function<void()>& may_store);
 
 // --- its parts -----------------------------------------------------------------------------------
 
@@ -38,6 +40,7 @@ void check_free_cells(const GroundOptions& options, std::int64_t free_cells);
 // unless there `may_be_none`; IoError.
 void store_site(const GroundOptions& options, const std::string& key, const Site& site,
                 const std::vector<NarrowPlace>& narrow, const Threads& threads,
-                const std::filesystem::path& path, bool may_be_none = false);
+                const std::filesystem::path& path, bool may_be_none = false,
+                const std::function<void()>& may_store = {});
 
 }  // namespace vfplan

@@ -149,20 +149,11 @@ void write_layers(Package& out, const CoverageTables& t, const Plan& plan) {
 }  // namespace
 
 void write_gpkg(const std::filesystem::path& file, const Results& results) {
-    // GDAL insists on the suffix, and SQLite keeps journals beside the file while it writes.
-    std::filesystem::path aside = file;
-    aside.replace_extension(".tmp.gpkg");
-    std::error_code ignored;
-    std::filesystem::remove(aside, ignored);
-    try {
-        Package out(aside, results.tables.crs_wkt);
-        write_layers(out, results.tables, results.plan);
-        out.close();
-    } catch (...) {
-        std::filesystem::remove(aside, ignored);
-        throw;
-    }
-    publish(aside, file);
+    Aside aside(file, true);  // SQLite keeps journals beside the file while it writes
+    Package out(aside.path(), results.tables.crs_wkt);
+    write_layers(out, results.tables, results.plan);
+    out.close();
+    aside.publish();
 }
 
 }  // namespace vfplan

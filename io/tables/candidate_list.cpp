@@ -5,6 +5,7 @@
 
 #include "io/columns.h"
 #include "io/h5_reader.h"
+#include "io/tables/sound.h"
 #include "kernels/index.h"
 
 namespace vfplan {
@@ -47,6 +48,9 @@ std::vector<Candidate> read_some(const h5::Reader& file, std::int64_t from, std:
     const auto y = file.read<double>("y", idx(from), count);
     const auto cell = file.read<std::int64_t>("cell", idx(from), count);
     const auto kind = file.read<std::uint8_t>("kind", idx(from), count);
+    sound::finite(file, "x", x);
+    sound::finite(file, "y", y);
+    sound::codes<CandidateKind>(file, "kind", kind);
     std::vector<Candidate> out;
     out.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -65,7 +69,7 @@ CandidateList::CandidateList(std::filesystem::path file, Layout layout,
       listed_(static_cast<std::int64_t>(h5::Reader(file_).dims("x").at(0))) {}
 
 std::int64_t CandidateList::components() const {
-    return static_cast<std::int64_t>(h5::Reader(file_).number("/", "components"));
+    return h5::Reader(file_).whole("/", "components", 0, std::int64_t{1} << 31);
 }
 
 std::vector<Candidate> CandidateList::read(std::int64_t from, std::int64_t to) const {
@@ -80,6 +84,7 @@ std::vector<Candidate> CandidateList::read(std::int64_t from, std::int64_t to) c
 CandidateList::Part CandidateList::in(const Window& window) const {
     const h5::Reader file(file_);
     const auto begin = file.read<std::int64_t>("patch_begin");
+    sound::offsets(file, "patch_begin", begin, idx(layout_.patches()), 0, listed_);
     Part out;
     const std::vector<std::int64_t> patches = layout_.patches_in(window);
     for (std::size_t i = 0; i < patches.size();) {

@@ -1,7 +1,10 @@
 #include "io/tables/candidate_shards.h"
 
+#include <numeric>
+
 #include "io/columns.h"
 #include "io/h5_reader.h"
+#include "io/tables/sound.h"
 #include "kernels/index.h"
 
 namespace vfplan {
@@ -24,6 +27,8 @@ std::vector<FoundCandidate> FoundTiles::candidates() const {
         const h5::Reader file(names_.one(tile));
         const auto cell = file.read<std::int64_t>("cell");
         const auto kind = file.read<std::uint8_t>("kind");
+        sound::count(file, "kind", kind, cell.size());
+        sound::codes<CandidateKind>(file, "kind", kind);
         for (std::size_t i = 0; i < cell.size(); ++i) {
             out.push_back({cell[i], static_cast<CandidateKind>(kind[i])});
         }
@@ -34,15 +39,16 @@ std::vector<FoundCandidate> FoundTiles::candidates() const {
 void FoundTiles::mark_covered(std::vector<bool>& pieces) const {
     for (std::int64_t tile = 0; tile < tiles_; ++tile) {
         const h5::Reader file(names_.one(tile));
-        for (const std::int32_t p : file.read<std::int32_t>("covered")) pieces[idx(p)] = true;
+        const auto covered = file.read<std::int32_t>("covered");
+        sound::range(file, "covered", covered, 0, static_cast<std::int64_t>(pieces.size()));
+        for (const std::int32_t p : covered) pieces[idx(p)] = true;
     }
 }
 
 std::int64_t FoundTiles::short_of_overlap() const {
     std::int64_t sum = 0;
     for (std::int64_t tile = 0; tile < tiles_; ++tile) {
-        sum +=
-            static_cast<std::int64_t>(h5::Reader(names_.one(tile)).number("/", "short_of_overlap"));
+        sum += h5::Reader(names_.one(tile)).whole("/", "short_of_overlap");
     }
     return sum;
 }
@@ -66,6 +72,9 @@ CellRows rows_in(const h5::Reader& file, const std::string& group = "") {
     out.cell = file.read<std::int64_t>(group + "cell");
     const auto begin = file.read<std::int64_t>(group + "covers_begin");
     const auto piece = file.read<std::int32_t>(group + "covers_piece");
+    sound::offsets(file, group + "covers_begin", begin, out.cell.size(), 0,
+                   static_cast<std::int64_t>(piece.size()));
+    sound::range(file, group + "covers_piece", piece, 0, std::int64_t{1} << 31);
     for (std::size_t i = 0; i < out.cell.size(); ++i) {
         out.covers.emplace_back(piece.begin() + begin[i], piece.begin() + begin[i + 1]);
     }
@@ -101,6 +110,13 @@ std::vector<PoolSquare> read_pool_squares(const std::filesystem::path& path) {
         const std::string group = part == &PoolSquare::taken ? "taken/" : "again/";
         const auto count = file.read<std::int64_t>(group + "count");
         CellRows all = rows_in(file, group);
+        sound::range(file, group + "count", count, 0,
+                     static_cast<std::int64_t>(all.cell.size()) + 1);
+        sound::need(file,
+                    std::accumulate(count.begin(), count.end(), std::int64_t{0}) ==
+                            static_cast<std::int64_t>(all.cell.size()) &&
+                        (out.empty() || out.size() == count.size()),
+                    group + "count", "has other cells than there are");
         out.resize(count.size());
         std::size_t i = 0;
         for (std::size_t square = 0; square < count.size(); ++square) {
@@ -140,7 +156,11 @@ void write_rescue_tile(const std::filesystem::path& path, const std::string& key
 
 RescueTile read_rescue_tile(const std::filesystem::path& path) {
     const h5::Reader file(path);
-    return {file.read<std::int32_t>("piece"), file.read<std::int64_t>("piece_cell"), rows_in(file)};
+    RescueTile out{file.read<std::int32_t>("piece"), file.read<std::int64_t>("piece_cell"),
+                   rows_in(file)};
+    sound::range(file, "piece", out.piece, 0, std::int64_t{1} << 31);
+    sound::count(file, "piece_cell", out.piece_cell, out.piece.size());
+    return out;
 }
 
 }  // namespace vfplan

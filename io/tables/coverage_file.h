@@ -2,14 +2,11 @@
 // (docs/file_format.md).
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "io/h5_reader.h"
 #include "io/tables/join_shards.h"
 #include "kernels/candidate.h"
 #include "kernels/coverage.h"
@@ -65,47 +62,32 @@ void write_pool_index(const std::filesystem::path& path,
                       const std::vector<std::filesystem::path>& blocks, const std::string& key,
                       std::int64_t pieces);
 
-// The entries of the rows, as far as they are asked for. Thread-safe.
+// The entries of the rows, as far as they are asked for, from the shards beside the index. What is
+// read keeps to its bounds: pieces that there are, ascending in each row. Throws IoError.
+// Thread-safe.
 class CoverageEntries {
 public:
-    explicit CoverageEntries(const std::filesystem::path& path) { add(path); }
-    // Those of another table behind them.
+    // `path`: a coverage.h5.
+    explicit CoverageEntries(const std::filesystem::path& path);
+    // Those of a pool.h5 behind them.
     void add(const std::filesystem::path& path);
-    std::vector<std::int32_t> pieces(std::int64_t from, std::int64_t count) const {
-        return read<std::int32_t>("indices", from, count);
-    }
-    std::vector<float> fractions(std::int64_t from, std::int64_t count) const {
-        return read<float>("data", from, count);
-    }
-    std::vector<float> angles_rad(std::int64_t from, std::int64_t count) const {
-        return read<float>("angle_rad", from, count);
-    }
+    std::vector<std::int32_t> pieces(std::int64_t from, std::int64_t count) const;
+    std::vector<float> fractions(std::int64_t from, std::int64_t count) const;
+    std::vector<float> angles_rad(std::int64_t from, std::int64_t count) const;
 
 private:
-    template <class T>
-    std::vector<T> read(const char* name, std::int64_t from, std::int64_t count) const {
-        std::vector<T> out;
-        for (const Part& part : parts_) {
-            const std::int64_t first = std::max<std::int64_t>(0, from - part.begin);
-            const std::int64_t end = std::min(part.count, from + count - part.begin);
-            if (first >= end) continue;
-            std::vector<T> some = part.file->read<T>(std::string("coverage/") + name,
-                                                     static_cast<std::uint64_t>(first),
-                                                     static_cast<std::uint64_t>(end - first));
-            if (out.empty()) {
-                out = std::move(some);
-            } else {
-                out.insert(out.end(), some.begin(), some.end());
-            }
-        }
-        return out;
-    }
+    template <class T, class Check>
+    std::vector<T> read(const char* name, std::int64_t from, std::int64_t count,
+                        const Check& check) const;
+
     struct Part {
-        std::unique_ptr<h5::Reader> file;
+        std::filesystem::path shard;
         std::int64_t begin = 0;  // its first entry
         std::int64_t count = 0;
     };
     std::vector<Part> parts_;
+    std::vector<std::int64_t> begin_ = {0};  // of rows
+    std::int64_t pieces_ = 0;
 };
 
 // coverage.h5 of a run directory, and pool.h5 behind it where it takes part.

@@ -24,8 +24,8 @@ struct FieldInfo {
 void write_field_index(const std::filesystem::path& path, const FieldInfo& info,
                        const std::vector<std::filesystem::path>& tiles);
 
-// Reads the field through its index. Opening checks every shard and throws IoError, naming it, when
-// it is missing, damaged or not the one that was indexed. Thread-safe.
+// Reads the field from the shards beside its index. Opening checks every one and throws IoError,
+// naming it, when it is missing, damaged or not the one that was indexed. Thread-safe.
 class FieldFile {
 public:
     explicit FieldFile(const std::filesystem::path& path);
@@ -45,7 +45,7 @@ public:
     Reduced reduced(std::int64_t most) const;
 
 private:
-    h5::Reader file_;
+    std::vector<std::filesystem::path> tiles_;
     FieldInfo info_;
 };
 

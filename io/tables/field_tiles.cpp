@@ -60,9 +60,7 @@ FieldCounts FieldTiles::counts() const {
     FieldCounts all;
     for (const std::filesystem::path& shard : shards()) {
         const h5::Reader file(shard);
-        const auto number = [&](const char* name) {
-            return static_cast<std::int64_t>(file.number("/", name));
-        };
+        const auto number = [&](const char* name) { return file.whole("/", name); };
         all += {number("cells"), number("packets"), number("steps"), number("walls")};
     }
     return all;

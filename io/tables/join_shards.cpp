@@ -4,6 +4,7 @@
 
 #include "io/columns.h"
 #include "io/h5_reader.h"
+#include "io/tables/sound.h"
 
 namespace vfplan {
 
@@ -24,8 +25,12 @@ DisputeRound read_dispute_round(const std::filesystem::path& path) {
     out.open = file.number("/", "open") > 0;
     out.spaces = static_cast<std::int64_t>(file.number("/", "spaces"));
     if (!out.open) return out;
-    out.role = column<PieceRole>(file.read<std::uint8_t>("role"), [](std::uint8_t r) { return r; });
+    const auto role = file.read<std::uint8_t>("role");
     out.set = file.read<std::int32_t>("set");
+    sound::range(file, "role", role, 0, static_cast<std::int64_t>(PieceRole::look) + 1);
+    sound::count(file, "set", out.set, role.size());
+    sound::range(file, "set", out.set, -1, std::int64_t{1} << 31);
+    out.role = column<PieceRole>(role, [](std::uint8_t r) { return r; });
     return out;
 }
 
@@ -60,13 +65,17 @@ Apart read_apart(const h5::Reader& file) {
     if (!file.has_attribute("/", "apart_free_cells")) return out;
     out.free_cells = static_cast<std::int64_t>(file.number("/", "apart_free_cells"));
     const auto& names = Names<OverlapRatio>::all;
-    out.rule.ratio = static_cast<OverlapRatio>(
-        std::find(names.begin(), names.end(), file.text("apart", "ratio")) - names.begin());
+    const auto ratio = std::find(names.begin(), names.end(), file.text("apart", "ratio"));
+    sound::need(file, ratio != names.end(), "apart", "is by a ratio that is none");
+    out.rule.ratio = static_cast<OverlapRatio>(ratio - names.begin());
     out.rule.threshold = file.number("apart", "threshold");
     out.disputed_cells = static_cast<std::int64_t>(file.number("apart", "disputed_cells"));
     const auto a = file.read<std::int32_t>("apart/a");
     const auto b = file.read<std::int32_t>("apart/b");
     const auto overlap = file.read<double>("apart/overlap");
+    sound::count(file, "apart/b", b, a.size());
+    sound::count(file, "apart/overlap", overlap, a.size());
+    sound::finite(file, "apart/overlap", overlap);
     for (std::size_t i = 0; i < a.size(); ++i) out.pairs.push_back({a[i], b[i], overlap[i]});
     return out;
 }

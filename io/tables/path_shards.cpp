@@ -2,9 +2,15 @@
 
 #include "io/columns.h"
 #include "io/h5_reader.h"
+#include "io/tables/sound.h"
 #include "kernels/index.h"
 
 namespace vfplan {
+namespace {
+
+constexpr std::int64_t no_end = std::int64_t{1} << 31;  // of numbers that 32 bits hold
+
+}  // namespace
 
 void write_pairs(const std::filesystem::path& path, const std::string& key,
                  const CandidatePairs& pairs) {
@@ -19,7 +25,10 @@ void write_pairs(const std::filesystem::path& path, const std::string& key,
 }
 
 CandidatePairs read_pairs(const std::filesystem::path& path) {
-    const auto both = h5::Reader(path).read<std::int32_t>("pair");
+    const h5::Reader file(path);
+    const auto both = file.read<std::int32_t>("pair");
+    sound::range(file, "pair", both, 0, no_end);
+    sound::need(file, both.size() % 2 == 0, "pair", "has half a pair");
     CandidatePairs out;
     for (std::size_t i = 0; i + 1 < both.size(); i += 2) out.emplace_back(both[i], both[i + 1]);
     return out;
@@ -34,17 +43,17 @@ void write_components(const std::filesystem::path& path, const std::string& key,
     finish_shard(file);
 }
 
-std::int64_t Components::count() const {
-    return static_cast<std::int64_t>(h5::Reader(file_).number("/", "count"));
-}
+std::int64_t Components::count() const { return h5::Reader(file_).whole("/", "count", 0, no_end); }
 
 std::vector<std::int32_t> Components::of(const std::vector<std::int32_t>& numbers) const {
     const h5::Reader file(file_);
+    const std::int64_t components = file.whole("/", "count", 0, no_end);
     std::vector<std::int32_t> out;
     for (std::size_t i = 0; i < numbers.size();) {
         std::size_t k = i + 1;  // consecutive ones in one go
         while (k < numbers.size() && numbers[k] == numbers[k - 1] + 1) ++k;
         const auto some = file.read<std::int32_t>("component", idx(numbers[i]), k - i);
+        sound::range(file, "component", some, 0, components);
         out.insert(out.end(), some.begin(), some.end());
         i = k;
     }
@@ -86,7 +95,16 @@ std::vector<ShortestPath> read_paths(const std::filesystem::path& path) {
     const auto direction = file.read<std::int32_t>("direction");
     const auto begin = file.read<std::int64_t>("cells_begin");
     const auto cells = file.read<std::int64_t>("cells");
-    std::vector<ShortestPath> out(length.size());
+    const std::size_t paths = length.size();
+    sound::count(file, "component", component, 2 * paths);
+    sound::count(file, "candidate", candidate, 2 * paths);
+    sound::count(file, "meets_at", meets_at, paths);
+    sound::count(file, "direction", direction, paths);
+    sound::range(file, "component", component, 0, no_end);
+    sound::range(file, "candidate", candidate, 0, no_end);
+    sound::range(file, "length", length, 0, no_end);
+    sound::offsets(file, "cells_begin", begin, paths, 0, static_cast<std::int64_t>(cells.size()));
+    std::vector<ShortestPath> out(paths);
     for (std::size_t i = 0; i < out.size(); ++i) {
         out[i] = {{component[2 * i], component[2 * i + 1]},
                   {candidate[2 * i], candidate[2 * i + 1]},
@@ -129,6 +147,11 @@ std::vector<Connection> read_connections(const std::filesystem::path& path) {
     const auto x = file.read<double>("x");
     const auto y = file.read<double>("y");
     const auto cell = file.read<std::int64_t>("cell");
+    sound::offsets(file, "begin", begin, good.size(), 0, static_cast<std::int64_t>(x.size()));
+    sound::count(file, "y", y, x.size());
+    sound::count(file, "cell", cell, x.size());
+    sound::finite(file, "x", x);
+    sound::finite(file, "y", y);
     std::vector<Connection> out(good.size());
     for (std::size_t i = 0; i < out.size(); ++i) {
         out[i].good = good[i] != 0;

@@ -7,6 +7,7 @@
 #include "io/h5_reader.h"
 #include "io/tables/certificate_text.h"
 #include "io/tables/shard_index.h"
+#include "io/tables/sound.h"
 
 namespace vfplan {
 
@@ -56,6 +57,7 @@ void write_plan(const std::filesystem::path& path, const PlanTable& t) {
 }
 
 PlanTable read_plan(const std::filesystem::path& path) {
+    constexpr std::int64_t no_end = std::int64_t{1} << 31;
     const h5::Reader file(path);
     check_version(file, path);
     PlanTable t;
@@ -80,22 +82,44 @@ PlanTable read_plan(const std::filesystem::path& path) {
     const auto articulation = file.read<std::uint8_t>("stations/articulation");
     const auto bridge_end = file.read<std::uint8_t>("stations/bridge_end");
     const auto needed = file.read<double>("stations/needed_overlap");
-    for (std::size_t i = 0; i < candidate.size(); ++i) {
+    const std::size_t stations = candidate.size();
+    const auto end = static_cast<std::int64_t>(stations);
+    sound::range(file, "stations/candidate", candidate, 0, no_end);
+    sound::count(file, "stations/component", network, stations);
+    sound::range(file, "stations/component", network, 0, end);
+    sound::count(file, "stations/order", order, stations);
+    sound::range(file, "stations/order", order, -1, no_end);
+    for (const auto* column : {&fresh, &seen, &only, &needed}) {
+        sound::count(file, "stations", *column, stations);
+        sound::finite(file, "stations", *column, 1e12);
+    }
+    sound::count(file, "stations/articulation", articulation, stations);
+    sound::count(file, "stations/bridge_end", bridge_end, stations);
+    for (std::size_t i = 0; i < stations; ++i) {
         t.plan.stations.push_back({candidate[i], network[i], order[i], fresh[i], seen[i], only[i],
                                    articulation[i] != 0, bridge_end[i] != 0, needed[i]});
     }
     const auto from = file.read<std::int32_t>("links/from");
     const auto to = file.read<std::int32_t>("links/to");
     const auto overlap = file.read<double>("links/overlap");
+    sound::range(file, "links/from", from, 0, end);
+    sound::count(file, "links/to", to, from.size());
+    sound::range(file, "links/to", to, 0, end);
+    sound::count(file, "links/overlap", overlap, from.size());
+    sound::finite(file, "links/overlap", overlap);
+    sound::need(file, std::is_sorted(from.begin(), from.end()), "links/from", "does not ascend");
     for (std::size_t i = 0; i < from.size(); ++i) {
         t.plan.links.push_back({from[i], to[i], overlap[i], {}});
     }
     for (std::size_t r = 0; r < overlap_ratio_count; ++r) {
         const auto values = file.read<double>("links/" + std::string(overlap_ratios[r].name));
+        sound::count(file, "links", values, from.size());
+        sound::finite(file, "links", values);
         for (std::size_t i = 0; i < from.size(); ++i) t.plan.links[i].ratios[r] = values[i];
     }
-    t.plan.pieces = column<PieceStatus>(file.read<std::uint8_t>("piece_status"),
-                                        [](std::uint8_t v) { return v; });
+    const auto status = file.read<std::uint8_t>("piece_status");
+    sound::codes<PieceStatus>(file, "piece_status", status);
+    t.plan.pieces = column<PieceStatus>(status, [](std::uint8_t v) { return v; });
     const auto proof = file.read<std::uint8_t>("certificate/text");
     t.plan.certificate =
         certificate_of(std::string(proof.begin(), proof.end()), path.string() + " certificate");

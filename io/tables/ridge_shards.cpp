@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/h5_reader.h"
+#include "io/tables/sound.h"
 #include "kernels/index.h"
 
 namespace vfplan {
@@ -23,6 +24,8 @@ SkeletonCells SkeletonTiles::all() const {
         const h5::Reader file(names_.one(tile));
         const auto cell = file.read<std::int64_t>("cell");
         const auto squared = file.read<std::int32_t>("squared");
+        sound::range(file, "cell", cell, 0, layout_.grid.size());
+        sound::count(file, "squared", squared, cell.size());
         for (std::size_t i = 0; i < cell.size(); ++i) cells.emplace_back(cell[i], squared[i]);
     }
     std::sort(cells.begin(), cells.end());
@@ -84,6 +87,7 @@ TileRidges RidgeTiles::tile(std::int64_t tile) const {
     const h5::Reader file(file_);
     const auto range = [&](const char* name) {
         const auto two = file.read<std::int64_t>(name, idx(tile), 2);
+        sound::need(file, two[0] >= 0 && two[0] <= two[1], name, "does not ascend");
         return std::pair<std::uint64_t, std::uint64_t>(idx(two[0]), idx(two[1] - two[0]));
     };
     TileRidges out;
@@ -91,11 +95,19 @@ TileRidges RidgeTiles::tile(std::int64_t tile) const {
     out.joints = file.read<std::int64_t>("joints", joint_from, joint_count);
     const auto [from, count] = range("ridge_begin");
     const auto begin = file.read<std::int64_t>("cells_begin", from, count + 1);
+    sound::need(file, begin.front() >= 0, "cells_begin", "begins before its cells");
+    for (std::size_t r = 0; r < count; ++r) {
+        sound::need(file, begin[r] < begin[r + 1], "cells_begin", "does not ascend");
+    }
     const auto cells =
         file.read<std::int64_t>("cells", idx(begin.front()), idx(begin.back() - begin.front()));
     const auto first = file.read<std::int64_t>("first_joint", from, count);
     const auto last = file.read<std::int64_t>("last_joint", from, count);
     const auto ring = file.read<std::uint8_t>("ring", from, count);
+    sound::range(file, "joints", out.joints, 0, layout_.grid.size());
+    sound::range(file, "cells", cells, 0, layout_.grid.size());
+    sound::range(file, "first_joint", first, -1, layout_.grid.size());
+    sound::range(file, "last_joint", last, -1, layout_.grid.size());
     for (std::size_t r = 0; r < count; ++r) {
         out.ridges.push_back({{cells.begin() + (begin[r] - begin.front()),
                                cells.begin() + (begin[r + 1] - begin.front())},

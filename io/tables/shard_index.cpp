@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
+
 #include "io/checksum.h"
 #include "io/h5_reader.h"
 #include "io/tables/shard.h"
@@ -13,6 +16,19 @@ namespace {
 constexpr std::int64_t format_version = 4;  // of the tables' layout (docs/file_format.md)
 constexpr std::size_t hash_bytes = 32;
 constexpr std::size_t digits = 5;  // of a shard's number, at least
+
+// "shards/field-1024-" of field.h5, "shards/coverage-" of coverage.h5: an index is over shards of
+// its own, beside it.
+void check_stem(const h5::Reader& file, std::string_view stem, const std::filesystem::path& index) {
+    const std::string own = "shards/" + index.stem().string() + "-";
+    std::string_view rest = stem;
+    if (rest.starts_with(own)) {
+        rest.remove_prefix(own.size());
+        const std::size_t number = std::min(rest.find_first_not_of("0123456789"), rest.size());
+        if (rest.empty() || (number > 0 && rest.substr(number) == "-")) return;
+    }
+    file.fail(fmt::format("it names shards \"{}\", not its own, \"{}\"", stem, own));
+}
 
 std::uint8_t hex_value(char c) {
     return static_cast<std::uint8_t>(c <= '9' ? c - '0' : c - 'a' + 10);
@@ -64,15 +80,19 @@ void write_shard_list(h5::Writer& file, const std::vector<std::filesystem::path>
     file.attribute("tile_status", "shards", first.substr(0, first.rfind('-') + 1));
 }
 
-void check_shards(const std::filesystem::path& index) {
+std::vector<std::filesystem::path> check_shards(const std::filesystem::path& index) {
     const h5::Reader file(index);
     const auto hashes = file.read<std::uint8_t>("tile_sha256");
-    if (hashes.empty()) return;
+    if (hashes.size() % hash_bytes != 0) file.fail("tile_sha256 is no list of hashes");
+    std::vector<std::filesystem::path> out;
+    if (hashes.empty()) return out;
     const std::string stem = file.text("tile_status", "shards");
+    check_stem(file, stem, index);
     for (std::size_t i = 0; i * hash_bytes < hashes.size(); ++i) {
         const std::filesystem::path shard =
             index.parent_path() / fmt::format("{}{:0{}}.h5", stem, i, digits);
-        if (!std::filesystem::exists(shard)) {
+        std::error_code error;
+        if (!std::filesystem::exists(std::filesystem::symlink_status(shard, error))) {
             throw IoError(
                 fmt::format("{}: missing, and {} needs it; run the job again and it is "
                             "made anew",
@@ -88,7 +108,15 @@ void check_shards(const std::filesystem::path& index) {
                             "and it is made anew",
                             shard.string(), index.string()));
         }
+        out.push_back(shard);
     }
+    return out;
+}
+
+void check_sources(const h5::Reader& file, const std::string& name,
+                   const std::vector<h5::Source>& wanted) {
+    if (file.sources(name) == wanted) return;
+    file.fail(fmt::format("{} consists of other parts than the shards beside it", name));
 }
 
 }  // namespace vfplan

@@ -24,7 +24,12 @@ void write_shard_list(h5::Writer& file, const std::vector<std::filesystem::path>
 // "shards/NAME" of a shard, as its index names it.
 std::string name_in_index(const std::filesystem::path& shard);
 
-// Throws IoError, naming it, for the first shard of an index that is missing, damaged or another.
-void check_shards(const std::filesystem::path& index);
+// The shards of an index, by names of ours in the folder beside it. Throws IoError, naming it, for
+// the first that is missing, damaged or another, and for an index that names others.
+std::vector<std::filesystem::path> check_shards(const std::filesystem::path& index);
+
+// Throws IoError where a virtual dataset, which other programs read, consists of anything else.
+void check_sources(const h5::Reader& file, const std::string& name,
+                   const std::vector<h5::Source>& wanted);
 
 }  // namespace vfplan

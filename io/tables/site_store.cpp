@@ -1,7 +1,10 @@
 #include "io/tables/site_store.h"
 
+#include <limits>
+
 #include "io/columns.h"
 #include "io/tables/shard.h"
+#include "io/tables/sound.h"
 #include "io/tables/wall_columns.h"
 #include "kernels/error.h"
 #include "kernels/index.h"
@@ -11,6 +14,9 @@ namespace {
 
 constexpr std::uint64_t short_chunk = 1U << 13;  // patches are read one by one
 constexpr std::size_t at_once = 1U << 20;        // walls that are gathered before they are written
+
+constexpr std::int64_t no_end = std::int64_t{1} << 31;
+constexpr std::int32_t largest_side = 1 << 30;
 
 std::vector<double> flat(const std::vector<Vec2d>& points) {
     std::vector<double> out;
@@ -100,24 +106,43 @@ SiteStore::SiteStore(const std::filesystem::path& path, std::int64_t tile_cells)
     if (frame.size() != 9 || sizes.size() != 3) {
         throw IoError(path.string() + ": not a site of this version; run the job with --fresh");
     }
+    const auto whole = [&](const char* name) { return file_.whole("/", name, 0, no_end); };
+    sound::finite(file_, "frame", frame);
+    sound::need(
+        file_,
+        frame[8] > 0 && sizes[0] > 0 && sizes[1] > 0 && sizes[2] > 0 &&
+            std::max(sizes[0], sizes[1]) <= std::numeric_limits<std::int32_t>::max() - sizes[2],
+        "layout", "is no grid");
     facts_.origin = {frame[0], frame[1]};
     facts_.extent = {{frame[2], frame[3]}, {frame[4], frame[5]}};
-    facts_.required = points(file_.read<double>("required"));
-    facts_.existing = points(file_.read<double>("existing"));
+    for (auto&& [name, to] :
+         {std::pair{"required", &facts_.required}, {"existing", &facts_.existing}}) {
+        const auto flat = file_.read<double>(name);
+        sound::finite(file_, name, flat);
+        *to = points(flat);
+    }
     layout_ = {{{frame[6], frame[7]}, frame[8], sizes[0], sizes[1]},
                sizes[2],
                static_cast<std::int32_t>(tile_cells)};
     facts_.crs_wkt = file_.text("/", "crs_wkt");
     facts_.summary = file_.text("/", "summary");
-    const auto number = [&](const char* name) {
-        return static_cast<std::int64_t>(file_.number("/", name));
+    facts_.buildings = whole("buildings");
+    facts_.walls = whole("walls");
+    facts_.pieces = whole("pieces");
+    facts_.free_cells = file_.whole("/", "free_cells");
+    const auto patches = idx(layout_.patches());
+    const auto end = [&](const char* name) {
+        return static_cast<std::int64_t>(file_.dims(name).at(0));
     };
-    facts_.buildings = number("buildings");
-    facts_.walls = number("walls");
-    facts_.pieces = number("pieces");
-    facts_.free_cells = number("free_cells");
     wall_begin_ = file_.read<std::int64_t>("patches/wall_begin");
     bits_begin_ = file_.read<std::int64_t>("patches/bits_begin");
+    sound::offsets(file_, "patches/wall_begin", wall_begin_, patches, 0, end("patches/number"));
+    sound::offsets(file_, "patches/bits_begin", bits_begin_, patches, 0, end("patches/standable"));
+    for (std::size_t p = 0; p < patches; ++p) {
+        const std::int64_t cells = layout_.patch_window(static_cast<std::int64_t>(p)).size();
+        sound::need(file_, 8 * (bits_begin_[p + 1] - bits_begin_[p]) >= cells, "patches/standable",
+                    "has too few cells");
+    }
 }
 
 bool SiteStore::has_walls(std::int64_t patch) const {
@@ -133,6 +158,15 @@ PatchSite SiteStore::patch(std::int64_t patch) const {
     out.first[left] = file_.read<std::int32_t>("patches/first_left", from, count);
     out.first[right] = file_.read<std::int32_t>("patches/first_right", from, count);
     out.count = file_.read<std::int32_t>("patches/pieces_per_side", from, count);
+    sound::range(file_, "patches/number", out.number, 0, facts_.walls);
+    sound::range(file_, "patches/pieces_per_side", out.count, 0, facts_.pieces + 1);
+    for (const Side side : {left, right}) {
+        sound::range(file_, "patches/first", out.first[side], -1, facts_.pieces);
+        for (std::size_t i = 0; i < count; ++i) {
+            sound::need(file_, out.first[side][i] + out.count[i] <= facts_.pieces,
+                        "patches/pieces_per_side", "goes beyond the pieces");
+        }
+    }
     return out;
 }
 
@@ -170,6 +204,8 @@ std::vector<Wall> SiteStore::all_walls() const { return read_walls(file_, "walls
 
 Pieces SiteStore::all_pieces(const std::vector<Wall>& walls) const {
     const auto per_side = file_.read<std::int32_t>("walls/pieces_per_side");
+    sound::count(file_, "walls/pieces_per_side", per_side, walls.size());
+    sound::range(file_, "walls/pieces_per_side", per_side, 0, facts_.pieces + 1);
     Pieces out;
     for (std::size_t w = 0; w < walls.size(); ++w) {
         const std::int32_t n = walls[w].scanned ? per_side[w] : 0;

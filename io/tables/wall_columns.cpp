@@ -1,6 +1,7 @@
 #include "io/tables/wall_columns.h"
 
 #include "io/columns.h"
+#include "io/tables/sound.h"
 
 namespace vfplan {
 
@@ -57,6 +58,8 @@ std::vector<Wall> read_walls(const h5::Reader& file, const std::string& group, s
     const auto scanned = code("scanned");
     const auto on_left = code("free_left");
     const auto on_right = code("free_right");
+    for (const auto* ends : {&x0, &y0, &x1, &y1}) sound::finite(file, group, *ends);
+    sound::codes<WallClass>(file, group + "/class", cls);
     std::vector<Wall> walls;
     walls.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "engine/config/parameters.h"
-#include "engine/job/run_dir.h"
+#include "engine/folder/run_dir.h"
 #include "io/files.h"
 #include "kernels/error.h"
 

@@ -6,25 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "engine/job/run_dir.h"
+#include "engine/folder/lock.h"
+#include "engine/folder/run_dir.h"
 #include "engine/runtime/ranks.h"
 
 namespace vfplan {
-
-// Keeps other jobs from writing into a run directory while this process lives, on one machine and
-// where the file system locks for several. All ranks of a job hold it together.
-class FolderLock {
-public:
-    // `leader`: waits some seconds for others to end (processes of a killed mpirun live a little
-    // longer), then throws IoError. The other ranks join after the leader.
-    FolderLock(const RunDir& dir, bool leader);
-    ~FolderLock();
-    FolderLock(const FolderLock&) = delete;
-    FolderLock& operator=(const FolderLock&) = delete;
-
-private:
-    int file_ = -1;
-};
 
 // Takes a run directory for a job: makes the folder, locks it, writes job.toml, clears away what
 // `fresh` makes again. So hours of work are not begun for a folder that cannot be written, and
