@@ -59,10 +59,11 @@ bool same_file(int descriptor, const std::filesystem::path& file) {
 
 class Patience {
 public:
-    explicit Patience(const std::filesystem::path& folder) : folder_(folder) {}
+    Patience(const std::filesystem::path& folder, std::chrono::milliseconds most)
+        : folder_(folder), until_(std::chrono::steady_clock::now() + most) {}
     void wait() {
         stop_if_asked();
-        if (++tries_ > 40) {
+        if (std::chrono::steady_clock::now() > until_) {
             throw IoError(fmt::format(
                 "{}: another vfplan is writing into this folder; wait for it or end it, or choose "
                 "another --out",
@@ -73,14 +74,15 @@ public:
 
 private:
     const std::filesystem::path& folder_;
-    int tries_ = 0;
+    std::chrono::steady_clock::time_point until_;
 };
 
 }  // namespace
 
-FolderLock::FolderLock(const std::filesystem::path& folder, Hold hold)
+FolderLock::FolderLock(const std::filesystem::path& folder, Hold hold,
+                       std::chrono::milliseconds most)
     : file_(folder / (hold == Hold::follow ? ranks_name : lock_name)) {
-    Patience patience(folder);
+    Patience patience(folder, most);
     const int how = hold == Hold::lead ? LOCK_EX : LOCK_SH;
     try {
         while (true) {

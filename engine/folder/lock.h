@@ -1,6 +1,7 @@
 // Who may work in a run directory.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 
 namespace vfplan {
@@ -18,9 +19,10 @@ inline constexpr const char* ranks_name = ".ranks";  // where several processes 
 class FolderLock {
 public:
     enum class Hold { lead, follow, copy };
-    // Waits ten seconds for others to end, then throws IoError. REQUIRES: the folder is there;
-    // followers come after their leader.
-    FolderLock(const std::filesystem::path& folder, Hold hold);
+    // Waits for others to end, at most as long as `patience`, then throws IoError. REQUIRES: the
+    // folder is there; followers come after their leader.
+    FolderLock(const std::filesystem::path& folder, Hold hold,
+               std::chrono::milliseconds patience = std::chrono::seconds(10));
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;
     FolderLock& operator=(const FolderLock&) = delete;

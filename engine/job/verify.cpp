@@ -12,10 +12,12 @@
 #include "engine/check/run_check.h"
 #include "engine/folder/contents.h"
 #include "engine/folder/input_state.h"
+#include "engine/folder/lock.h"
 #include "engine/folder/publication.h"
 #include "engine/folder/run_dir.h"
 #include "engine/job/reread.h"
 #include "engine/tables/scenes.h"
+#include "io/checksum.h"
 #include "io/tables/coverage_file.h"
 #include "io/tables/field_file.h"
 #include "io/tables/plan_file.h"
@@ -311,6 +313,10 @@ bool fits(const CoverageTables& t, const Plan& plan) {
 void check_published(const RunDir& dir, const std::string& tables_key, Checks& checks) {
     const std::vector<std::string> faults = faults_since_published(dir.path());
     for (const std::string& fault : faults) checks.add(false, fault);
+    std::error_code ignored;
+    if (std::filesystem::exists(dir.file(lock_name), ignored) && !is_marked(dir.path())) {
+        checks.add(false, fmt::format("{}: not the mark of a run directory", lock_name));
+    }
     if (faults.empty()) checks.add(true, "all files of the plan are as they were published");
     dir.check_job(tables_key);
 }
@@ -351,10 +357,11 @@ VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Pro
     const Candidates candidates = read_candidates(dir.path(), table.pool);
     const CoverageTables& t = candidates.tables;
     const CoverageEntries& entries = candidates.entries;
-    checks.add(table.key == t.key && field.info().key == t.key,
-               "field, coverage and plan belong to one job");
-    checks.add(fits(t, table.plan), "the plan's numbers point into its tables");
-    if (!checks.result().good) return checks.result();
+    const bool one_job = table.key == t.key && field.info().key == t.key;
+    const bool fitting = fits(t, table.plan);
+    checks.add(one_job, "field, coverage and plan belong to one job");
+    checks.add(fitting, "the plan's numbers point into its tables");
+    if (!one_job || !fitting) return checks.result();
     SceneOptions options = scene_options(config);
     options.kernel = KernelKind::exact;
     const Layout& layout = field.info().layout;
@@ -364,12 +371,16 @@ VerifyResult verify_run(const std::filesystem::path& path, int thread_count, Pro
     Scenes scenes(
         layout, [&](std::int64_t patch) { return patch_site(t.walls, t.pieces, near, patch); },
         options, 16 * threads.count());
-    const Rechecked found = recheck(table, t, threads, scenes, progress);
-    check_coverage(table.plan, found, checks);
-    check_connection(table, found, checks);
-    progress.stage("field");
-    check_field(scenes, threads, field, table.plan, config.visibility.kernel, checks);
-    check_rays(found.ray_difference, checks);
+    try {
+        const Rechecked found = recheck(table, t, threads, scenes, progress);
+        check_coverage(table.plan, found, checks);
+        check_connection(table, found, checks);
+        progress.stage("field");
+        check_field(scenes, threads, field, table.plan, config.visibility.kernel, checks);
+        check_rays(found.ray_difference, checks);
+    } catch (const InputError& e) {  // of walls that no reader makes
+        damaged(dir.file(coverage_name), e.what());
+    }
     check_bound(t, entries, table, checks);
     check_site(config, t, field, checks);
     progress.finish();

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <sstream>
 
+#include "engine/folder/publication.h"
 #include "io/tables/plan_file.h"
 #include "program.h"
 
@@ -124,6 +125,7 @@ TEST_F(Wishes, APlanThatSurvivesStandsTheLossOfAnyStation) {
     PlanTable weak = read_plan(scratch / "weak/plan.h5");
     weak.survives = true;
     write_plan(scratch / "run/plan.h5", weak);
+    publish_plan(scratch / "run", read_json(scratch / "run/summary.json"));
     const Output bad = vfplan_process({"verify", scratch / "run"});
     EXPECT_EQ(bad.code, 1) << bad.out;
     EXPECT_NE(bad.out.find("need not"), std::string::npos) << bad.out;
