@@ -32,11 +32,13 @@ double plan_memory_mb(const Estimate& e, double walls) {
 double outputs_take(const Config& config, const Estimate& e, OutputCost Output::*cost) {
     const auto& formats = config.output.formats;
     const double pixels = std::pow(static_cast<double>(config.output.map_px), 2);
+    constexpr double uncovered = 0.2;  // share of pieces, at the most of the sites at hand
+    const double listed =
+        static_cast<double>(e.pieces) * (lists_all(config.output.pieces, e.pieces) ? 1 : uncovered);
     double sum = 0;
     for (const Output& o : outputs()) {
         if (std::find(formats.begin(), formats.end(), o.format) == formats.end()) continue;
-        sum +=
-            (o.*cost).of(static_cast<double>(e.pieces), static_cast<double>(e.candidates), pixels);
+        sum += (o.*cost).of(listed, static_cast<double>(e.candidates), pixels);
     }
     return sum;
 }

@@ -86,6 +86,20 @@ void write_outputs(const RunDir& dir, const std::vector<std::string>& formats,
                      });
 }
 
+// Which pieces the files list, where not all.
+std::string pieces_text(const Config& config, const std::vector<PieceStatus>& pieces) {
+    const auto count = static_cast<std::int64_t>(pieces.size());
+    const auto& formats = config.output.formats;
+    const auto asked = [&](const char* format) {
+        return std::find(formats.begin(), formats.end(), format) != formats.end();
+    };
+    if (lists_all(config.output.pieces, count) || !(asked("csv") || asked("gpkg"))) return "";
+    return fmt::format(
+        "files        pieces.csv and plan.gpkg list the {} pieces that are not covered, of {} "
+        "(output.pieces = \"all\" lists all)\n",
+        count - std::count(pieces.begin(), pieces.end(), PieceStatus::covered), count);
+}
+
 // From tables to a plan and all files of it, published as one. `overrides`: what was set beyond the
 // folder's job. `before_publishing`: writes what else belongs to the plan.
 std::string plan_of(const RunDir& dir, const Config& config,
@@ -113,7 +127,13 @@ std::string plan_of(const RunDir& dir, const Config& config,
                {planned.plan, tables.key, options.overlap, options.candidates, options.survive});
     write_outputs(dir, config.output.formats,
                   {field, tables, planned.plan, config.site.input.filename().string(),
-                   plan_line(planned), static_cast<int>(config.output.map_px)},
+                   plan_line(planned), static_cast<int>(config.output.map_px),
+                   lists_all(config.output.pieces, tables.pieces.size()),
+                   [&](std::int64_t n, const std::function<void(std::int64_t)>& body) {
+                       threads.for_each(n, 1, [&](std::int64_t from, std::int64_t to) {
+                           for (std::int64_t i = from; i < to; ++i) body(i);
+                       });
+                   }},
                   threads);
     Json summary = summary_of_tables(field, tables);
     summary.update(summary_of_plan(planned, tables));
@@ -129,7 +149,7 @@ std::string plan_of(const RunDir& dir, const Config& config,
     add_times(summary, progress);
     if (before_publishing) before_publishing();
     publish_plan(dir.path(), std::move(summary));
-    return plan_text(planned, tables, config);
+    return plan_text(planned, tables, config) + pieces_text(config, planned.plan.pieces);
 }
 
 // For precompute: what there is before a plan.

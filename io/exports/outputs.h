@@ -2,17 +2,39 @@
 // and explains them.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "kernels/names.h"
 
 namespace vfplan {
 
 class FieldFile;
 struct CoverageTables;
 struct Plan;
+
+// Which pieces are handed out: in plan.h5 the status of every one is told.
+enum class PieceList : std::uint8_t { automatic, all, uncovered };
+template <>
+struct Names<PieceList> {
+    static constexpr std::array<std::string_view, 3> all = {"auto", "all", "uncovered"};
+};
+// By `automatic` all, unless there are more: lists of a county would have gigabytes, and no program
+// shows them.
+inline constexpr std::int64_t pieces_listed_most = 1'000'000;
+inline bool lists_all(PieceList list, std::int64_t pieces) {
+    return list == PieceList::all || (list == PieceList::automatic && pieces <= pieces_listed_most);
+}
+
+// A loop over blocks 0 to n - 1, by several threads perhaps.
+using EachBlock =
+    std::function<void(std::int64_t n, const std::function<void(std::int64_t block)>& body)>;
 
 // What the files are made of; refers to what outlives it.
 struct Results {
@@ -22,6 +44,8 @@ struct Results {
     std::string title;     // of the map, one line: the site
     std::string subtitle;  // one line: what the plan reached
     int map_px = 1600;
+    bool all_pieces = true;  // false: only those that the main network does not cover
+    EachBlock each_block;
 };
 
 // What a file takes, as it turned out on real sites (docs/performance.md).

@@ -84,7 +84,7 @@ private:
     OGRLayerH layer_ = nullptr;
 };
 
-void write_layers(Package& out, const CoverageTables& t, const Plan& plan) {
+void write_layers(Package& out, const CoverageTables& t, const Plan& plan, bool all_pieces) {
     const auto point = [&](std::size_t station) -> Vec2d {
         return t.origin + t.candidates[idx(plan.stations[station].candidate)].at;
     };
@@ -133,6 +133,7 @@ void write_layers(Package& out, const CoverageTables& t, const Plan& plan) {
     out.field("length_m", OFTReal);
     out.field("status", OFTString);
     for (std::size_t p = 0; p < plan.pieces.size(); ++p) {
+        if (!all_pieces && plan.pieces[p] == PieceStatus::covered) continue;
         const Pieces::Place place = t.pieces.place(static_cast<std::int64_t>(p));
         const Wall& wall = t.walls[idx(place.wall)];
         const Vec2d a = t.origin + wall.at(place.s0_m);
@@ -151,7 +152,7 @@ void write_layers(Package& out, const CoverageTables& t, const Plan& plan) {
 void write_gpkg(const std::filesystem::path& file, const Results& results) {
     Aside aside(file, true);  // SQLite keeps journals beside the file while it writes
     Package out(aside.path(), results.tables.crs_wkt);
-    write_layers(out, results.tables, results.plan);
+    write_layers(out, results.tables, results.plan, results.all_pieces);
     out.close();
     aside.publish();
 }

@@ -7,6 +7,9 @@ tests/golden/hashes.json: what a change of the code must not change.
     golden.py same DIR DIR          compare two run directories
                 [--renamed OLD=NEW] a dataset that has another name in the second one; repeatable
 
+hashes.json also holds the version of what tables mean (tables_version, engine/folder/run_dir.h), which keeps
+a run from going on with another program's shards: where tables change and it does not, both commands fail.
+
 Compared are all datasets of field.h5, coverage.h5, pool.h5 and plan.h5, read through their indices (type, shape
 and bytes), the CSV and GeoJSON files, and result_sha256. Left out are attributes, which hold the job's
 key, and the checksums of shards, which hold the shards' attributes.
@@ -99,6 +102,23 @@ def differences(wanted, got):
             yield f"{name} differs"
 
 
+def version_of(run):
+    """What the first line of a job.toml says: "# job HASH tables VERSION"."""
+    with open(os.path.join(run, "job.toml"), encoding="utf-8") as file:
+        return int(file.readline().split(" tables ")[1])
+
+
+def check_version(wanted, got):
+    """A line where tables (not plans) differ and their version is the same."""
+    if wanted.get("tables_version") != got["tables_version"]:
+        return []
+    changed = [f"{job}: {line}" for job in JOBS
+               for line in differences(wanted.get(job, {}), got.get(job, {}))
+               if line.startswith(("field.h5", "coverage.h5", "pool.h5"))]
+    return changed[:1] and [f"{changed[0]}, and so tables_version in engine/folder/run_dir.h must be "
+                            f"another than {got['tables_version']}"]
+
+
 def run_job(program, folder, name):
     site, settings = JOBS[name]
     site_file = os.path.join(folder, site + ".geojson")
@@ -112,32 +132,45 @@ def run_job(program, folder, name):
     for setting in settings:
         command += ["--set", setting]
     subprocess.run(command, check=True)
-    return digest(os.path.join(folder, name))
+    run = os.path.join(folder, name)
+    return {**digest(run), "version": version_of(run)}
 
 
 def all_jobs(program):
     with tempfile.TemporaryDirectory(prefix="vfplan-golden-") as folder:
-        return {name: run_job(program, folder, name) for name in JOBS}
+        out = {name: run_job(program, folder, name) for name in JOBS}
+    versions = {digests.pop("version") for digests in out.values()}
+    assert len(versions) == 1, versions
+    return {"tables_version": versions.pop(), **out}
 
 
 def check(program):
     with open(HASHES, encoding="utf-8") as file:
         wanted = json.load(file)
     got = all_jobs(program)
-    bad = [f"{job}: {line}" for job in sorted(set(wanted) | set(got))
+    bad = [f"{job}: {line}" for job in JOBS
            for line in differences(wanted.get(job, {}), got.get(job, {}))]
+    bad += check_version(wanted, got)
+    if wanted.get("tables_version") != got["tables_version"]:
+        bad.append(f"tables_version is {got['tables_version']}")
     for line in bad:
         print(line)
     if bad:
         print(f"{len(bad)} arrays or files are not what tests/golden/hashes.json says. If the change "
               "is meant: make golden, and say in the commit why.")
         return 1
-    print(f"{sum(len(d) for d in got.values())} arrays and files of {len(got)} jobs are as they were.")
+    print(f"{sum(len(got[job]) for job in JOBS)} arrays and files of {len(JOBS)} jobs are as they were.")
     return 0
 
 
 def renew(program):
     hashes = all_jobs(program)
+    if os.path.exists(HASHES):
+        with open(HASHES, encoding="utf-8") as file:
+            wrong = check_version(json.load(file), hashes)
+        if wrong:
+            print(wrong[0])
+            return 1
     with open(HASHES, "w", encoding="utf-8") as file:
         json.dump(hashes, file, indent=1, sort_keys=True)
         file.write("\n")

@@ -56,7 +56,7 @@ Config unusual() {
         "4\nmin_spacing_m = 5\nsurvive = 1\nshortcuts = 0.5\nloops = "
         "false\neffort = 7\nproof_effort = 9\n"
         "required = [[1, 2.5], [3, -4]]\nforbidden = 'no/go.geojson'\nexisting = [[5e6, 0.1]]\n"
-        "[output]\nformats = ['png']\nmap_px = 300\n",
+        "[output]\nformats = ['png']\npieces = 'uncovered'\nmap_px = 300\n",
         "job.toml", "/jobs/one", {});
 }
 
