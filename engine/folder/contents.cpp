@@ -132,8 +132,7 @@ void remove_passing(const fs::path& folder) {
     const fs::path work = folder / "work";
     for (const std::string& name : names_in(work)) {
         if (is_tiles_folder(name)) remove_from(work / name, is_passing_name);
-        if (is_tiles_folder(name) || name == "site.h5" || name == "site.h5.tmp")
-            erase(work / name);
+        if (is_tiles_folder(name) || name == "site.h5" || name == "site.h5.tmp") erase(work / name);
     }
     erase(work);
 }

@@ -7,6 +7,8 @@
 #include <ogr_api.h>
 #include <ogr_srs_api.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 
@@ -41,8 +43,13 @@ public:
     Package(const Package&) = delete;
     Package& operator=(const Package&) = delete;
 
-    void layer(const char* name, OGRwkbGeometryType type) {
-        layer_ = GDALDatasetCreateLayer(set_, name, srs_, type, nullptr);
+    // With a spatial index, for programs that show a part, unless there are so many features that
+    // it would take four times as long as they do.
+    void layer(const char* name, OGRwkbGeometryType type, std::size_t features) {
+        constexpr std::size_t indexed_most = 1'000'000;
+        char none[] = "SPATIAL_INDEX=NO";
+        std::array<char*, 2> options = {features > indexed_most ? none : nullptr, nullptr};
+        layer_ = GDALDatasetCreateLayer(set_, name, srs_, type, options.data());
         check(layer_ != nullptr);
         check(GDALDatasetStartTransaction(set_, 0) == OGRERR_NONE);
     }
@@ -88,7 +95,7 @@ void write_layers(Package& out, const CoverageTables& t, const Plan& plan, bool 
     const auto point = [&](std::size_t station) -> Vec2d {
         return t.origin + t.candidates[idx(plan.stations[station].candidate)].at;
     };
-    out.layer("stations", wkbPoint);
+    out.layer("stations", wkbPoint, plan.stations.size());
     out.field("id", OFTInteger);
     out.field("component", OFTInteger);
     out.field("order", OFTInteger);
@@ -116,7 +123,7 @@ void write_layers(Package& out, const CoverageTables& t, const Plan& plan, bool 
         });
     }
     out.commit();
-    out.layer("links", wkbLineString);
+    out.layer("links", wkbLineString, plan.links.size());
     out.field("from", OFTInteger);
     out.field("to", OFTInteger);
     out.field("overlap", OFTReal);
@@ -128,7 +135,9 @@ void write_layers(Package& out, const CoverageTables& t, const Plan& plan, bool 
         });
     }
     out.commit();
-    out.layer("pieces", wkbLineString);
+    const auto covered = std::count(plan.pieces.begin(), plan.pieces.end(), PieceStatus::covered);
+    out.layer("pieces", wkbLineString,
+              plan.pieces.size() - (all_pieces ? 0 : static_cast<std::size_t>(covered)));
     out.field("id", OFTInteger);
     out.field("length_m", OFTReal);
     out.field("status", OFTString);
