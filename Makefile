@@ -11,7 +11,7 @@ VFPLAN := build/$(PRESET)/vfplan
 
 SOURCES = $(shell find kernels io engine tests bench -name '*.cpp' -o -name '*.h' | LC_ALL=C sort)
 
-.PHONY: help setup build configure program run test golden random-sites random-networks bench-build bench bench-check bench-counts plans \
+.PHONY: help setup build configure program run test golden random-sites random-networks kills tampered limits bench-build bench bench-check bench-counts plans \
         scaling area check-format format tidy clean
 
 help:  ## this list
@@ -47,6 +47,15 @@ random-sites: build  ## 10,000 hostile little sites of each kind, read and held 
 
 random-networks: build  ## 400 little sites of each kind: as many networks as over all free cells
 	@VFPLAN_RANDOM_SITES=400 build/$(PRESET)/test_engine --gtest_filter='RandomNetworks.*'
+
+kills: program  ## end vfplan at random KILLS=1000 times, with 1 and 3 processes, and look at what is left
+	@/usr/bin/python3 -B tests/e2e/kills.py $(VFPLAN) --kills $(or $(KILLS),1000) --ranks 1,3
+
+tampered: program  ## change run directories, 500 bytes and 1,000 tables sealed again, and look what is made of them
+	@/usr/bin/python3 -B tests/e2e/tampered.py $(VFPLAN) --bytes 500 --resealed 1000
+
+limits: program  ## memory in steps of 10 MB, threads, file sizes, descriptors, disk: how a job ends
+	@/usr/bin/python3 -B tests/e2e/limits.py $(VFPLAN) --step 10
 
 golden: program  ## after a change of results that is meant: new hashes for tests/golden
 	@/usr/bin/python3 -B tests/golden/golden.py renew $(VFPLAN)

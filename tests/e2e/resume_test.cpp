@@ -116,6 +116,35 @@ TEST_F(Resume, ASignalEndsItPolitelyAndKeepsItsShards) {
     EXPECT_GT(stopped, 0);
 }
 
+// One tile of 1.2 km in cells of 10 cm takes a minute and more. Slurm gives 30 s, we take ten.
+TEST_F(Resume, ATaskThatTakesLongIsGivenUp) {
+    const std::string site = generated(*scratch, "city", {"--size-km", "1.2", "--seed", "4"});
+    for (const int signal : {SIGTERM, SIGHUP}) {
+        const Path dir = folder("long");
+        std::filesystem::remove_all(dir);
+        const auto begin = std::chrono::steady_clock::now();
+        constexpr double after_s = 4;
+        const Output o =
+            vfplan_signalled(signal, after_s,
+                             {"run", site, "--out", dir, "--quiet", "--threads", "2", "--set",
+                              "field.cell_m=0.1", "--set", "field.tile_cells=16384"});
+        const double s =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        EXPECT_EQ(o.code, 75) << o.err;
+        EXPECT_LT(s, after_s + 10);
+        for (const Path& p : files_below(dir)) EXPECT_NE(p.extension(), ".tmp") << p;
+    }
+}
+
+// Whoever starts it with nohup wants it to stay.
+TEST_F(Resume, AnIgnoredHangupStaysIgnored) {
+    std::signal(SIGHUP, SIG_IGN);
+    const Output o = vfplan_signalled(SIGHUP, 0.3 * wall_s, command("nohup"));
+    std::signal(SIGHUP, SIG_DFL);
+    EXPECT_EQ(o.code, 0) << o.err;
+    expect_same_run(folder("whole"), folder("nohup"));
+}
+
 TEST_F(Resume, DamagedShardsAreNamedAndMadeAgain) {
     const auto shards = files_below(folder("whole") / "shards");
     ASSERT_GT(shards.size(), 3U);
