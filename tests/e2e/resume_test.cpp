@@ -118,7 +118,8 @@ TEST_F(Resume, ASignalEndsItPolitelyAndKeepsItsShards) {
 
 // One tile of 1.2 km in cells of 10 cm takes a minute and more. Slurm gives 30 s, we take ten.
 TEST_F(Resume, ATaskThatTakesLongIsGivenUp) {
-    const std::string site = generated(*scratch, "city", {"--size-km", "1.2", "--seed", "4"});
+    const Scratch own;
+    const std::string site = generated(own, "city", {"--size-km", "1.2", "--seed", "4"});
     for (const int signal : {SIGTERM, SIGHUP}) {
         const Path dir = folder("long");
         std::filesystem::remove_all(dir);
