@@ -20,6 +20,7 @@ GroundOptions ground_options(const Config& c) {
     o.site.osm_parts = c.site.osm_parts;
     o.site.osm_barriers = c.site.osm_barriers;
     o.site.crs = c.site.crs;
+    o.site.allow_network = c.site.allow_network;
     o.site.unit_m = c.site.unit_m;
     o.site.snap_m = c.site.snap_m;
     o.site.margin_m = c.site.margin_m;

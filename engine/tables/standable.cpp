@@ -26,6 +26,7 @@ std::vector<Border> forbidden_border(const GroundOptions& o, const Site& site) {
     ReadOptions read;
     read.crs = site.crs_wkt;  // to where the site is
     read.unit_m = o.site.unit_m;
+    read.allow_network = o.site.allow_network;
     std::vector<Polygon> polygons;
     for (Feature& f : read_features(o.forbidden, read).features) {
         each_point(f, [&](Vec2d& v) { v -= site.origin; });

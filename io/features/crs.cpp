@@ -3,12 +3,15 @@
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <fmt/format.h>
+#include <ogr_spatialref.h>
 #include <ogr_srs_api.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <memory>
 
+#include "io/features/reach.h"
 #include "kernels/error.h"
 
 namespace vfplan {
@@ -46,9 +49,26 @@ bool looks_like_degrees(const FeatureSet& set) {
            box.max.y() <= 90 && edge > 0 && edge < 0.03;
 }
 
-Srs made(const std::string& definition) {
+// What GDAL makes of a name or a definition. `anywhere`: it may stand in a file or on the network.
+bool understood(OGRSpatialReferenceH srs, const std::string& definition, bool anywhere) {
+    close_the_network();
+    CPLErrorReset();
+    return OGRSpatialReference::FromHandle(srs)->SetFromUserInput(
+               definition.c_str(),
+               anywhere ? nullptr : OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) ==
+           OGRERR_NONE;
+}
+
+Srs made(const std::string& definition, bool anywhere = false) {
     Srs srs(OSRNewSpatialReference(nullptr));
-    if (OSRSetFromUserInput(srs.get(), definition.c_str()) != OGRERR_NONE) {
+    if (!understood(srs.get(), definition, anywhere)) {
+        if (std::strstr(CPLGetLastErrorMsg(), "ALLOW_") != nullptr) {
+            throw UsageError(fmt::format(
+                "site.crs = \"{}\": the name of a file or an address, and none is opened "
+                "for a definition; give \"utm\" or an EPSG code such as "
+                "\"EPSG:32617\", or set site.allow_network = true",
+                definition));
+        }
         throw UsageError(
             fmt::format("site.crs = \"{}\": no coordinate reference system of that "
                         "name; give \"utm\" or an EPSG code such as \"EPSG:32617\"",
@@ -66,8 +86,8 @@ double metres_of_unit(OGRSpatialReferenceH srs, std::string& unit) {
 }
 
 // What the user asks for: walls and ranges are in metres, so degrees and feet are no help.
-Srs wanted_in_metres(const std::string& definition) {
-    Srs srs = made(definition);
+Srs wanted_in_metres(const std::string& definition, bool anywhere) {
+    Srs srs = made(definition, anywhere);
     std::string unit;
     if (OSRIsGeographic(srs.get()) != 0) {
         throw UsageError(fmt::format(
@@ -111,8 +131,8 @@ std::function<Vec2d(const Vec2d&)> way(OGRSpatialReferenceH from, OGRSpatialRefe
 }
 
 void project(FeatureSet& set, OGRSpatialReferenceH from, const std::string& definition,
-             const std::filesystem::path& file) {
-    const Srs to = wanted_in_metres(definition);
+             bool anywhere, const std::filesystem::path& file) {
+    const Srs to = wanted_in_metres(definition, anywhere);
     const auto projected = way(from, to.get());
     if (!projected) {
         throw InputError(fmt::format("{}: cannot be projected to {}: {}", file.string(), definition,
@@ -176,7 +196,8 @@ void settle_crs(FeatureSet& set, const DeclaredCrs& declared, const ReadOptions&
     const std::string wanted = options.crs.empty() && declared.always_project ? "utm" : options.crs;
     if (!wanted.empty()) {
         if (source) {
-            project(set, source.get(), wanted == "utm" ? utm_of(set, source.get()) : wanted, file);
+            project(set, source.get(), wanted == "utm" ? utm_of(set, source.get()) : wanted,
+                    options.allow_network, file);
             return;
         }
         if (wanted == "utm") {
@@ -186,7 +207,7 @@ void settle_crs(FeatureSet& set, const DeclaredCrs& declared, const ReadOptions&
                 "one that they are in",
                 file.string()));
         }
-        source = wanted_in_metres(wanted);  // the user knows
+        source = wanted_in_metres(wanted, options.allow_network);  // the user knows
     }
     if (!source) return;
     if (OSRIsGeographic(source.get()) != 0) {
@@ -201,7 +222,7 @@ void settle_crs(FeatureSet& set, const DeclaredCrs& declared, const ReadOptions&
 
 std::string wkt_of_code(const std::string& code) {
     const Srs srs(OSRNewSpatialReference(nullptr));
-    if (code.empty() || OSRSetFromUserInput(srs.get(), code.c_str()) != OGRERR_NONE) return "";
+    if (code.empty() || !understood(srs.get(), code, false)) return "";
     if (OSRIsCompound(srs.get()) != 0) OSRStripVertical(srs.get());
     return wkt_of(srs.get());
 }
@@ -209,7 +230,7 @@ std::string wkt_of_code(const std::string& code) {
 std::function<Vec2d(const Vec2d&)> to_degrees(const std::string& wkt) {
     if (wkt.empty()) return {};
     const Srs from(OSRNewSpatialReference(nullptr));
-    if (OSRSetFromUserInput(from.get(), wkt.c_str()) != OGRERR_NONE) return {};
+    if (!understood(from.get(), wkt, false)) return {};
     OSRSetAxisMappingStrategy(from.get(), OAMS_TRADITIONAL_GIS_ORDER);
     const Srs wgs84 = made("EPSG:4326");
     return way(from.get(), wgs84.get());

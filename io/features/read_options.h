@@ -34,8 +34,9 @@ struct ReadOptions {
     std::vector<RoleRule> roles;  // the user's own
     bool osm_parts = false;       // building:part counts as a building
     bool osm_barriers = false;    // walls and fences count as walls
-    std::string crs;    // "": as it is; "utm": the zone of the site; else a CRS that PROJ knows
-    double unit_m = 0;  // metres per unit of the file; 0: what the file says, else metres
+    std::string crs;  // "": as it is; "utm": the zone of the site; else a CRS that PROJ knows
+    bool allow_network = false;  // other machines and files may be asked, as a file or crs says
+    double unit_m = 0;           // metres per unit of the file; 0: what the file says, else metres
 };
 
 }  // namespace vfplan

@@ -6,6 +6,7 @@
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gdal.h>
+#include <ogr_api.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@
 #include <memory>
 #include <mutex>
 
+#include "io/features/reach.h"
 #include "kernels/error.h"
 #include "kernels/index.h"
 
@@ -110,6 +112,16 @@ std::string site_in(const std::string& archive, const std::filesystem::path& fil
     return archive + "/" + sites[0];
 }
 
+// Drivers that read the files they are given and what lies beside them, and nothing else.
+constexpr std::array files_alone = {
+    "GeoJSON",    "GeoJSONSeq", "TopoJSON", "ESRIJSON", "GPKG",         "ESRI Shapefile",
+    "FlatGeobuf", "GML",        "LIBKML",   "KML",      "MapInfo File", "OpenFileGDB",
+    "DXF",        "DGN",        "OSM",      "GPX",      "CSV"};
+// Drivers whose files say where to look.
+constexpr std::array elsewhere = {"OGR_VRT", "WFS"};
+constexpr std::array<const char*, 8> images = {"PNG", "PNM",  "JPEG",  "BMP",
+                                               "GIF", "WEBP", "GTiff", nullptr};
+
 }  // namespace
 
 void DatasetCloser::operator()(void* dataset) const { GDALClose(dataset); }
@@ -141,10 +153,52 @@ FileInMemory::~FileInMemory() { VSIUnlink(name_.c_str()); }
 void use_gdal() {
     static std::once_flag registered;
     std::call_once(registered, [] {
+        close_the_network();
         GDALAllRegister();
         CPLSetConfigOption("OSM_USE_CUSTOM_INDEXING", "NO");         // it refuses negative ids
         CPLSetConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");  // no files beside the user's
     });
+}
+
+Dataset open_vector(const std::string& name, bool network, bool no_files) {
+    use_gdal();
+    std::vector<const char*> drivers(files_alone.begin(), files_alone.end());
+    if (network) drivers.insert(drivers.end(), elsewhere.begin(), elsewhere.end());
+    drivers.push_back(nullptr);
+    constexpr std::array<const char*, 3> written = {"WRITE_GFS=NO", "DOWNLOAD_SCHEMA=NO", nullptr};
+    return Dataset(GDALOpenEx(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers.data(),
+                              no_files ? written.data() : nullptr, nullptr));
+}
+
+std::string leads_to(const std::string& head) {
+    const auto begins = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    if (begins == std::string::npos || head[begins] != '<') return "";
+    if (head.find("<OGRVRTDataSource") != std::string::npos) {
+        return "a virtual file (OGR VRT), which leads to other files or addresses";
+    }
+    for (const std::string_view service : {"<OGRWFSDataSource", "WFS_Capabilities"}) {
+        if (head.find(service) != std::string::npos) return "the address of a service (WFS)";
+    }
+    return "";
+}
+
+std::vector<std::string> files_of(const std::string& name, bool network) {
+    const QuietGdal quiet;
+    const Dataset set = open_vector(name, network, true);
+    if (!set) return {};
+    for (int i = 0; i < GDALDatasetGetLayerCount(set.get()); ++i) {
+        OGR_L_GetLayerDefn(GDALDatasetGetLayer(set.get(), i));
+    }
+    char** list = GDALGetFileList(set.get());
+    std::vector<std::string> out;
+    for (int i = 0; list != nullptr && list[i] != nullptr; ++i) out.emplace_back(list[i]);
+    CSLDestroy(list);
+    return out;
+}
+
+bool can_be_opened(const std::string& name) {
+    const QuietGdal quiet;
+    return !read_head(name).empty();
 }
 
 PackedFile look_into(const std::filesystem::path& file) {
@@ -213,8 +267,8 @@ GreyImage read_grey_image(const std::filesystem::path& file) {
         throw IoError(fmt::format("{}: no such image", file.string()));
     }
     const QuietGdal quiet;
-    const Dataset set(
-        GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
+    const Dataset set(GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, images.data(),
+                                 nullptr, nullptr));
     const auto damaged = [&] {
         const std::string why = QuietGdal::last();
         return InputError(fmt::format("{}: not an image that can be read{}{}; give PGM or PNG",

@@ -22,13 +22,30 @@ public:
     static bool failed();       // it said that something went wrong
 };
 
-// Registers the drivers, once.
+// Registers the drivers, and closes the network, once.
 void use_gdal();
 
 struct DatasetCloser {
     void operator()(void* dataset) const;
 };
 using Dataset = std::unique_ptr<void, DatasetCloser>;
+
+// Opens vector data with the drivers that docs/formats.md promises, and no other: what a file is
+// called or says of itself must not make GDAL ask a database or another machine. `network`: also
+// those that lead to other files and services. `no_files`: nothing is written beside a file of GML.
+// Null when none of them can; QuietGdal has why.
+Dataset open_vector(const std::string& name, bool network, bool no_files = false);
+
+// What a file that begins so leads to, where it is one that open_vector() opens with `network`
+// only; empty for all others.
+std::string leads_to(const std::string& head);
+
+// All files that GDAL reads for a name, as it names them; empty when it cannot open it. Layers are
+// opened, so that `network` files and services behind a virtual file are found.
+std::vector<std::string> files_of(const std::string& name, bool network);
+
+// Whether GDAL can open a file of that name and read from it.
+bool can_be_opened(const std::string& name);
 
 // Text as a file that GDAL opens, in memory, while the object lives.
 class FileInMemory {

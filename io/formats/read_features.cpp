@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <exception>
 #include <optional>
+#include <set>
 #include <string_view>
 
+#include "io/features/reach.h"
 #include "io/formats/art_gallery.h"
 #include "io/formats/cityjson.h"
 #include "io/formats/gdal.h"
@@ -17,6 +21,7 @@
 #include "io/formats/structured3d.h"
 #include "io/formats/sweet_home.h"
 #include "io/formats/vector_reader.h"
+#include "io/sha256.h"
 #include "kernels/error.h"
 
 namespace vfplan {
@@ -122,6 +127,31 @@ void check_coordinates(const FeatureSet& set, const std::filesystem::path& file)
     }
 }
 
+std::string lower(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+bool on_network(const std::filesystem::path& path) {
+    return path.string().starts_with("/vsi") && !std::filesystem::exists(path);
+}
+
+// Of these formats a file has no others beside it, and opening one with GDAL would read it whole.
+bool alone(const std::string& head) {
+    const auto first = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    return first != std::string::npos && (head[first] == '{' || head[first] == '[');
+}
+
+void check_readable(const std::filesystem::path& path, const std::filesystem::path& input) {
+    const bool there =
+        on_network(path) ? can_be_opened(path.string()) : std::filesystem::is_regular_file(path);
+    if (there) return;
+    throw InputError(
+        fmt::format("{}: it leads to {}, which is no file that can be read; a job must "
+                    "be able to tell whether its input has changed",
+                    input.string(), path.string()));
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> companions(const std::filesystem::path& file) {
@@ -142,8 +172,58 @@ std::vector<std::filesystem::path> companions(const std::filesystem::path& file)
     return out;
 }
 
-FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& options) {
-    const QuietGdal quiet;
+std::vector<std::filesystem::path> input_files(const std::filesystem::path& input,
+                                               bool allow_network) {
+    const Reach reach(allow_network);
+    const PackedFile packed = look_into(input);
+    std::set<std::filesystem::path> out;
+    const auto add = [&](const std::filesystem::path& path) {
+        if (on_network(path)) {
+            out.insert(path);
+        } else if (!std::filesystem::is_directory(path)) {
+            out.insert(std::filesystem::absolute(path).lexically_normal());
+        }
+    };
+    add(input);
+    if (std::filesystem::is_directory(input) && lower(input.extension().string()) == ".gdb") {
+        for (const auto& e : std::filesystem::recursive_directory_iterator(input)) {
+            if (e.is_regular_file()) add(e.path());
+        }
+    } else if (looks_like_ros_map(packed.head, input)) {
+        add(ros_image(packed.head, input));
+    } else if (packed.name == input.string() && !alone(packed.head)) {
+        for (const std::string& name : files_of(packed.name, allow_network)) add(name);
+    }
+    if (Reach::asked_a_service()) {
+        throw InputError(
+            fmt::format("{}: a service answers for it, and a job must be able to tell whether its "
+                        "input has changed; save what it answers as a file (ogr2ogr) and give that",
+                        input.string()));
+    }
+    for (const std::filesystem::path& path : out) check_readable(path, input);
+    return {out.begin(), out.end()};
+}
+
+std::string input_sha256(const std::filesystem::path& input,
+                         const std::vector<std::filesystem::path>& files) {
+    const Reach reach(true);  // of what was allowed when the files were listed
+    const std::filesystem::path folder = std::filesystem::absolute(input).parent_path();
+    Sha256 whole;
+    for (const std::filesystem::path& file : files) {
+        const bool far = on_network(file);
+        Sha256 content;
+        if (far)
+            each_part({file.string(), ""}, file,
+                      [&](std::string_view part) { content.add(part.data(), part.size()); });
+        whole.add(fmt::format("{} {}\n", far ? content.hex() : sha256_of_file(file),
+                              far ? file.string() : file.lexically_relative(folder).string()));
+    }
+    return whole.hex();
+}
+
+namespace {
+
+FeatureSet read_set(const std::filesystem::path& file, const ReadOptions& options) {
     const PackedFile packed = look_into(file);
     std::optional<Drawing> ours = read_ours(packed, file, options);
     if (ours && !options.where.empty()) {
@@ -175,6 +255,29 @@ FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& o
     }
     check_size(set, drawing.unit, options, file);
     return std::move(drawing.set);
+}
+
+}  // namespace
+
+FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& options) {
+    const QuietGdal quiet;
+    const Reach reach(options.allow_network);
+    std::exception_ptr why;
+    FeatureSet out;
+    try {
+        out = read_set(file, options);
+    } catch (const Error&) {
+        why = std::current_exception();
+    }
+    // Whatever came of it, nobody said that the network may be asked.
+    if (!Reach::refused().empty()) {
+        throw InputError(
+            fmt::format("{}: it leads to {}, and nothing is fetched from the network; give a file "
+                        "that has all in it, or set site.allow_network = true",
+                        file.string(), Reach::refused()));
+    }
+    if (why) std::rethrow_exception(why);
+    return out;
 }
 
 }  // namespace vfplan

@@ -307,13 +307,13 @@ Drawing read_vector(const PackedFile& packed, const std::filesystem::path& file,
     const QuietGdal quiet;
     // Reading GML would leave a file beside it.
     const bool gml = packed.head.find("opengis.net/gml") != std::string::npos;
-    const std::array<const char*, 2> no_files = {"WRITE_GFS=NO", nullptr};
-    const auto opened = [&](const std::string& name) {
-        return Dataset(GDALOpenEx(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr,
-                                  gml ? no_files.data() : nullptr, nullptr));
-    };
     std::unique_ptr<FileInMemory> changed;  // lives longer than the set
-    Dataset set = opened(packed.name);
+    Dataset set = open_vector(packed.name, options.allow_network, gml);
+    if (const std::string where = leads_to(packed.head); !options.allow_network && !where.empty()) {
+        throw InputError(fmt::format(
+            "{}: this is {}; give the file that it leads to, or set site.allow_network = true",
+            file.string(), where));
+    }
     if (!set) {
         const std::string why = QuietGdal::last();
         if (is_json(packed)) check_json(read_text(packed, file), file);
@@ -330,7 +330,7 @@ Drawing read_vector(const PackedFile& packed, const std::filesystem::path& file,
         check_dxf(text, file);
         if (auto drawn = with_splines_drawn(text)) {
             changed = std::make_unique<FileInMemory>(std::move(*drawn));
-            set = opened(changed->name());
+            set = open_vector(changed->name(), options.allow_network);
         }
     }
     if (driver == "OSM" && packed.head.find("<osm") != std::string::npos) check_osm(packed, file);
