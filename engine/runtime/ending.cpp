@@ -6,12 +6,23 @@
 
 #include "engine/runtime/exit_code.h"
 #include "engine/runtime/ranks.h"
+#include "kernels/printable.h"
 
 namespace vfplan {
 
+namespace {
+
+// Where standard error cannot be written, nobody can be told.
+void tell_person(const std::string& message) {
+    const std::string line = fmt::format("vfplan: {}\n", printable(message));
+    std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+}  // namespace
+
 int run_to_end(const std::function<int(const Ranks&)>& program) {
     const auto tell = [](const Ending& ending) {
-        if (!ending.message.empty()) fmt::print(stderr, "vfplan: {}\n", ending.message);
+        if (!ending.message.empty()) tell_person(ending.message);
         return ending.code;
     };
     try {

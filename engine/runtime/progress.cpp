@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "engine/runtime/stop.h"
+#include "kernels/printable.h"
 
 namespace vfplan {
 namespace {
@@ -122,11 +123,11 @@ void Progress::show(std::int64_t done, bool last) {
 }
 
 void Progress::note(const std::string& text) {
-    if (!quiet_) fmt::print(stderr, "{}{}\n", terminal_ ? "\r\033[K" : "", text);
+    if (!quiet_) fmt::print(stderr, "{}{}\n", terminal_ ? "\r\033[K" : "", printable(text));
 }
 
 void Progress::warn(const std::string& text) {
-    fmt::print(stderr, "{}warning: {}\n", terminal_ ? "\r\033[K" : "", text);
+    fmt::print(stderr, "{}warning: {}\n", terminal_ ? "\r\033[K" : "", printable(text));
 }
 
 void Progress::finish() {
