@@ -6,12 +6,16 @@
 #include <set>
 
 #include "engine/config/parameters.h"
+#include "engine/config/toml_depth.h"
 #include "engine/config/toml_values.h"
 #include "io/files.h"
 #include "kernels/error.h"
+#include "kernels/printable.h"
 
 namespace vfplan {
 namespace {
+
+constexpr std::size_t most_bytes = std::size_t{16} << 20U;  // no job is a thousandth of it
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -32,6 +36,11 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 // `known`: what could have been meant.
 [[noreturn]] void unknown_key(const std::set<std::string>& known, const std::string& key,
                               const Place& place) {
+    constexpr std::size_t longest = 100;
+    if (key.size() > longest) {
+        throw UsageError(fmt::format("{}... ({}): no such parameter; docs/parameters.md lists all",
+                                     key.substr(0, longest), place.text()));
+    }
     const auto nearest = std::min_element(known.begin(), known.end(),
                                           [&](const std::string& a, const std::string& b) {
                                               return edit_distance(key, a) < edit_distance(key, b);
@@ -95,6 +104,16 @@ Override parse_override(const std::string& text) {
     Override out;
     out.key = text.substr(0, equals);
     const std::string value = text.substr(equals + 1);
+    if (!is_utf8(text)) {
+        throw UsageError(fmt::format(
+            "--set {}: not in UTF-8, as job files and results are; rename what it names", text));
+    }
+    if (too_deep("v = " + value)) {
+        throw UsageError(
+            fmt::format("--set {}: the value nests more than {} deep, and no parameter "
+                        "has such values; docs/parameters.md has what it may be",
+                        out.key, toml_depth_most));
+    }
     try {
         out.holder = toml::parse("v = " + value);
     } catch (const toml::parse_error&) {
@@ -104,6 +123,16 @@ Override parse_override(const std::string& text) {
 }
 
 toml::table parse_toml(const std::string& text, const std::string& name) {
+    if (text.size() > most_bytes) {
+        throw UsageError(fmt::format(
+            "{}: larger than 16 MB, so it is no job file; configs/ has some to copy", name));
+    }
+    if (const auto at = too_deep(text)) {
+        throw UsageError(
+            fmt::format("{}: brackets or the parts of a key nest more than {} deep, and no "
+                        "parameter does; correct the TOML there",
+                        Place{name, at->line, at->column}.text(), toml_depth_most));
+    }
     try {
         return toml::parse(text, name);
     } catch (const toml::parse_error& e) {
@@ -117,7 +146,7 @@ void make_absolute(const std::vector<Parameter>& all, const std::filesystem::pat
     for (const Parameter& p : all) {
         const auto* path = std::get_if<std::filesystem::path*>(&p.value);
         if (path == nullptr || (*path)->empty()) continue;
-        **path = std::filesystem::absolute(folder / **path).lexically_normal();
+        **path = absolute_path(folder / **path, p.key());
     }
 }
 
@@ -152,6 +181,15 @@ void check_together(const Config& c, const std::string& name) {
 }
 
 }  // namespace
+
+std::filesystem::path absolute_path(const std::filesystem::path& path, const std::string& what) {
+    const std::filesystem::path out = std::filesystem::absolute(path).lexically_normal();
+    if (is_utf8(out.string())) return out;
+    throw UsageError(
+        fmt::format("{} = {}: the path is not in UTF-8, and job.toml, summary.json and other "
+                    "results, which name it, are; rename the folder or file",
+                    what, out.string()));
+}
 
 Config config_of(Preset preset) {
     Config config;
@@ -209,6 +247,12 @@ Config read_config(const std::filesystem::path& file, const std::vector<std::str
     }
     if (std::filesystem::is_directory(file, ignored)) {
         throw UsageError(fmt::format("{}: is a folder, not a job file", file.string()));
+    }
+    const bool plain = std::filesystem::is_regular_file(file, ignored);
+    if ((plain && std::filesystem::file_size(file, ignored) > most_bytes) ||
+        std::filesystem::is_character_file(file, ignored)) {  // /dev/zero has no end
+        throw UsageError(fmt::format("{}: {}, so it is no job file; configs/ has some to copy",
+                                     file.string(), plain ? "larger than 16 MB" : "a device"));
     }
     return parse_config(read_text(file), file.string(), file.parent_path(), overrides);
 }
