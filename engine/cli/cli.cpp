@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <string_view>
 
 #include "engine/cli/submit.h"
@@ -22,6 +24,7 @@
 #include "io/files.h"
 #include "kernels/error.h"
 #include "kernels/isa.h"
+#include "kernels/printable.h"
 #include "vfplan_version.h"
 
 namespace vfplan {
@@ -87,11 +90,36 @@ void add_job(CLI::App& app, Shared& s) {
     add_common(app, s);
 }
 
+[[noreturn]] void fail_to_write(int error) {
+    throw IoError(fmt::format("standard output cannot be written: {}; {}", std::strerror(error),
+                              advice_on(error)));
+}
+
+// To standard output: a text for other programs, byte by byte.
+void put(const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail_to_write(errno);
+}
+
+// The same for people.
+void say(const std::string& text) { put(printable(text)); }
+
+// What is still in buffers would be lost in silence at the end of the process.
+void flush_output() {
+    errno = 0;
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail_to_write(errno != 0 ? errno : EIO);
+}
+
+// Results name the folder, so it is looked at before there are any.
+std::filesystem::path checked_out(const std::filesystem::path& out) {
+    absolute_path(out, "--out");
+    return out;
+}
+
 std::filesystem::path out_of(const Shared& s) {
-    if (!s.out.empty()) return s.out;
+    if (!s.out.empty()) return checked_out(s.out);
     std::filesystem::path out = std::filesystem::path(s.job).stem();
     if (out.extension().empty() && std::filesystem::path(s.job) == out) out += ".run";
-    return out;
+    return checked_out(out);
 }
 
 bool is_job_file(const Shared& s) { return std::filesystem::path(s.job).extension() == ".toml"; }
@@ -100,6 +128,7 @@ bool is_job_file(const Shared& s) { return std::filesystem::path(s.job).extensio
 // may end it at once.
 BareSite job_or_site(const Shared& s) {
     if (is_job_file(s)) return {read_config(s.job, s.sets), {}};
+    absolute_path(s.job, "the site");
     const SignalsEnd at_once;
     return bare_site(s.job, s.sets);
 }
@@ -121,14 +150,14 @@ int run_or_precompute(const Shared& s, bool plan, const Ranks& ranks) {
         progress.warn(warning);
     }
     const std::string text = run_job(config, options, ranks, progress);
-    if (!s.quiet && ranks.leader()) fmt::print("{}", text);
+    if (!s.quiet && ranks.leader()) say(text);
     return 0;
 }
 
 int generate(const GenerateOptions& options, const std::string& out) {
     const GenerateReport report = generate_site(options);
     if (out.empty() || out == "-") {
-        fmt::print("{}", report.geojson);
+        put(report.geojson);
         fmt::print(stderr, "{}", report.summary);
         return 0;
     }
@@ -138,7 +167,7 @@ int generate(const GenerateOptions& options, const std::string& out) {
         std::filesystem::create_directories(file.parent_path(), error);
     }
     write_text(file, report.geojson);
-    fmt::print("{}", report.summary);
+    say(report.summary);
     return 0;
 }
 
@@ -164,15 +193,15 @@ int submit_job(const Shared& s, SubmitOptions o, bool print) {
     o.threads = s.threads;
     o.program = std::filesystem::read_symlink("/proc/self/exe");
     o.folder = std::filesystem::current_path();
-    fmt::print("{}", submit(o, print));
+    put(submit(o, print));
     return 0;
 }
 
 int verify(const Shared& s) {
     Progress progress(true);
     const VerifyResult r = verify_run(s.dir, s.threads, progress);
-    if (!s.quiet) fmt::print("{}", r.text);
-    fmt::print("{}\n", r.good ? "yes: the plan holds" : "NO: the plan does not hold");
+    if (!s.quiet) say(r.text);
+    say(r.good ? "yes: the plan holds\n" : "NO: the plan does not hold\n");
     return r.good ? 0 : 1;
 }
 
@@ -183,7 +212,7 @@ int compare_plans(const Shared& s) {
     const Comparison c = compare({s.dirs.begin(), s.dirs.end()});
     if (!s.csv.empty()) write_text(s.csv, csv_of(c));
     if (!s.out.empty()) write_text(s.out, picture_of(c));
-    if (!s.quiet) fmt::print("{}", text_of(c, true));
+    if (!s.quiet) say(text_of(c, true));
     return 0;
 }
 
@@ -193,10 +222,11 @@ int sweep_job(const Shared& s, const Ranks& ranks) {
     }
     std::filesystem::path out = s.out;
     if (out.empty()) out = std::filesystem::path(s.job).stem().string() + ".sweep";
+    checked_out(out);
     const Comparison c = sweep(s.job, s.sets, out, s.threads, ranks, s.quiet);
     if (!s.quiet && ranks.leader()) {
-        fmt::print("{}table      {}\npicture    {}\n", text_of(c, false),
-                   (out / "sweep.csv").string(), (out / "sweep.png").string());
+        say(fmt::format("{}table      {}\npicture    {}\n", text_of(c, false),
+                        (out / "sweep.csv").string(), (out / "sweep.png").string()));
     }
     return 0;
 }
@@ -211,7 +241,7 @@ int look_at_site(const Shared& s) {
     };
     const Inspection found = look();
     write_text(picture, found.picture);
-    fmt::print("{}picture    {}\n", found.text, picture.string());
+    say(fmt::format("{}picture    {}\n", found.text, picture.string()));
     return 0;
 }
 
@@ -316,12 +346,13 @@ int dispatch(int argc, char** argv, const Ranks& ranks) {
     }
     if (queue->parsed()) return submit_job(s, slurm, print);
     if (list->parsed()) {
-        fmt::print("{}", parameters_markdown());
+        put(parameters_markdown());
         return 0;
     }
     Progress progress(s.quiet);
+    if (!s.out.empty()) checked_out(s.out);
     const std::string text = plan_again(s.dir, s.out, s.sets, s.threads, progress);
-    if (!s.quiet) fmt::print("{}", text);
+    if (!s.quiet) say(text);
     return 0;
 }
 
@@ -329,7 +360,11 @@ int dispatch(int argc, char** argv, const Ranks& ranks) {
 
 int run_cli(int argc, char** argv) {
     watch_signals();
-    return run_to_end([&](const Ranks& ranks) { return dispatch(argc, argv, ranks); });
+    return run_to_end([&](const Ranks& ranks) {
+        const int code = dispatch(argc, argv, ranks);
+        flush_output();
+        return code;
+    });
 }
 
 }  // namespace vfplan
