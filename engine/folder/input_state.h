@@ -25,9 +25,8 @@ public:
     void check_unchanged() const;
 
 private:
-    using Stamp = std::tuple<std::filesystem::path, unsigned long, unsigned long, long, long, long,
-                             long, long>;
-    static std::vector<Stamp> stamps_of(const std::vector<std::filesystem::path>& files);
+    using Stamp = std::tuple<unsigned long, unsigned long, long, long, long, long, long>;
+    static Stamp stamp_of(const std::filesystem::path& file);
 
     std::vector<std::filesystem::path> files_;
     std::vector<Stamp> stamps_;

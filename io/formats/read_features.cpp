@@ -132,10 +132,6 @@ std::string lower(std::string text) {
     return text;
 }
 
-bool on_network(const std::filesystem::path& path) {
-    return path.string().starts_with("/vsi") && !std::filesystem::exists(path);
-}
-
 // Of these formats a file has no others beside it, and opening one with GDAL would read it whole.
 bool alone(const std::string& head) {
     const auto first = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
@@ -144,7 +140,7 @@ bool alone(const std::string& head) {
 
 void check_readable(const std::filesystem::path& path, const std::filesystem::path& input) {
     const bool there =
-        on_network(path) ? can_be_opened(path.string()) : std::filesystem::is_regular_file(path);
+        is_remote(path) ? can_be_opened(path.string()) : std::filesystem::is_regular_file(path);
     if (there) return;
     throw InputError(
         fmt::format("{}: it leads to {}, which is no file that can be read; a job must "
@@ -154,22 +150,9 @@ void check_readable(const std::filesystem::path& path, const std::filesystem::pa
 
 }  // namespace
 
-std::vector<std::filesystem::path> companions(const std::filesystem::path& file) {
-    std::vector<std::filesystem::path> out;
-    const auto add = [&](const std::filesystem::path& path) {
-        std::error_code ignored;
-        if (std::filesystem::is_regular_file(path, ignored)) out.push_back(path);
-    };
-    const std::string ending = file.extension().string();
-    if (ending == ".shp" || ending == ".SHP") {
-        for (const char* e : {".shx", ".dbf", ".prj", ".cpg", ".SHX", ".DBF", ".PRJ", ".CPG"}) {
-            add(std::filesystem::path(file).replace_extension(e));
-        }
-    } else if (std::filesystem::is_regular_file(file)) {
-        const PackedFile packed = look_into(file);
-        if (looks_like_ros_map(packed.head, file)) add(ros_image(packed.head, file));
-    }
-    return out;
+bool is_remote(const std::filesystem::path& file) {
+    std::error_code error;
+    return file.string().starts_with("/vsi") && !std::filesystem::exists(file, error);
 }
 
 std::vector<std::filesystem::path> input_files(const std::filesystem::path& input,
@@ -178,7 +161,7 @@ std::vector<std::filesystem::path> input_files(const std::filesystem::path& inpu
     const PackedFile packed = look_into(input);
     std::set<std::filesystem::path> out;
     const auto add = [&](const std::filesystem::path& path) {
-        if (on_network(path)) {
+        if (is_remote(path)) {
             out.insert(path);
         } else if (!std::filesystem::is_directory(path)) {
             out.insert(std::filesystem::absolute(path).lexically_normal());
@@ -204,20 +187,22 @@ std::vector<std::filesystem::path> input_files(const std::filesystem::path& inpu
     return {out.begin(), out.end()};
 }
 
-std::string input_sha256(const std::filesystem::path& input,
-                         const std::vector<std::filesystem::path>& files) {
+std::string input_sha256(const std::vector<std::filesystem::path>& files) {
     const Reach reach(true);  // of what was allowed when the files were listed
-    const std::filesystem::path folder = std::filesystem::absolute(input).parent_path();
-    Sha256 whole;
+    std::string hashes;
     for (const std::filesystem::path& file : files) {
-        const bool far = on_network(file);
+        if (!is_remote(file)) {
+            hashes += sha256_of_file(file);
+            continue;
+        }
         Sha256 content;
-        if (far)
-            each_part({file.string(), ""}, file,
-                      [&](std::string_view part) { content.add(part.data(), part.size()); });
-        whole.add(fmt::format("{} {}\n", far ? content.hex() : sha256_of_file(file),
-                              far ? file.string() : file.lexically_relative(folder).string()));
+        each_part({file.string(), ""}, file,
+                  [&](std::string_view part) { content.add(part.data(), part.size()); });
+        hashes += content.hex();
     }
+    if (files.size() == 1) return hashes;
+    Sha256 whole;
+    whole.add(hashes);
     return whole.hex();
 }
 

@@ -29,13 +29,11 @@ FeatureSet read_features(const std::filesystem::path& file, const ReadOptions& o
 std::vector<std::filesystem::path> input_files(const std::filesystem::path& input,
                                                bool allow_network = false);
 
-// SHA-256 over the names of such files, relative to the input's folder, and their contents: the
-// same wherever the input lies. Throws IoError when one cannot be read.
-std::string input_sha256(const std::filesystem::path& input,
-                         const std::vector<std::filesystem::path>& files);
+// Whether such a file is read through the network.
+bool is_remote(const std::filesystem::path& file);
 
-// The other files that a site's file is nothing without, as far as they are there: the image of a
-// ROS map; the index, attributes, CRS and encoding of a Shapefile. Throws as read_features() does.
-std::vector<std::filesystem::path> companions(const std::filesystem::path& file);
+// SHA-256 of the contents of such files in their order: of one file its own, of several that of
+// their hashes. Names do not count. Throws IoError when one cannot be read.
+std::string input_sha256(const std::vector<std::filesystem::path>& files);
 
 }  // namespace vfplan
