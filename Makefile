@@ -7,11 +7,12 @@ SHELL := bash
 
 PRESET ?= release
 JOBS   ?= $(shell nproc)
+MINUTES ?= 1
 VFPLAN := build/$(PRESET)/vfplan
 
 SOURCES = $(shell find kernels io engine tests bench -name '*.cpp' -o -name '*.h' | LC_ALL=C sort)
 
-.PHONY: help setup build configure program run test golden random-sites random-networks kills tampered limits bench-build bench bench-check bench-counts plans \
+.PHONY: help setup build configure program run test fuzz golden random-sites random-networks kills tampered limits bench-build bench bench-check bench-counts plans \
         scaling area check-format format tidy clean
 
 help:  ## this list
@@ -56,6 +57,11 @@ tampered: program  ## change run directories, 500 bytes and 1,000 tables sealed 
 
 limits: program  ## memory in steps of 10 MB, threads, file sizes, descriptors, disk: how a job ends
 	@/usr/bin/python3 -B tests/e2e/limits.py $(VFPLAN) --step 10
+
+fuzz: setup  ## MINUTES=1: any bytes as job files and sites, under sanitizers (clang); finds go to runs/fuzz
+	@cmake --preset fuzz
+	@cmake --build --preset fuzz -j $(JOBS) --target fuzz_job fuzz_site
+	@tests/fuzz/run.sh build/fuzz $(MINUTES)
 
 golden: program  ## after a change of results that is meant: new hashes for tests/golden
 	@/usr/bin/python3 -B tests/golden/golden.py renew $(VFPLAN)

@@ -109,7 +109,7 @@ public:
             if (right.x > left.x && from < to) {
                 const std::int64_t x0 = std::max(left.x, column * side_ - pad);
                 const std::int64_t x1 = std::min(right.x, (column + 1) * side_ + pad);
-                const auto y_at = [&](std::int64_t x) {
+                const auto y_at = [&, left = left](std::int64_t x) {
                     const double y = slope * static_cast<double>(x - left.x);
                     return std::clamp<std::int64_t>(left.y + std::llround(y), y_min, y_max);
                 };
