@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <sstream>
 #include <string_view>
 
 #include "engine/cli/submit.h"
@@ -106,7 +107,8 @@ void say(const std::string& text) { put(printable(text)); }
 // What is still in buffers would be lost in silence at the end of the process.
 void flush_output() {
     errno = 0;
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail_to_write(errno != 0 ? errno : EIO);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        fail_to_write(errno != 0 ? errno : EIO);
 }
 
 // Results name the folder, so it is looked at before there are any.
@@ -324,7 +326,11 @@ int dispatch(int argc, char** argv, const Ranks& ranks) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& e) {
-        return ranks.leader() ? app.exit(e) : 0;  // --help, --version
+        if (!ranks.leader()) return 0;
+        std::ostringstream text;  // --help, --version
+        const int code = app.exit(e, text, text);
+        put(text.str());
+        return code;
     } catch (const CLI::ParseError& e) {
         throw UsageError(fmt::format("{}; see vfplan --help", e.what()));
     }
