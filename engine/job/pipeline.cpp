@@ -104,7 +104,7 @@ std::string pieces_text(const Config& config, const std::vector<PieceStatus>& pi
 // folder's job. `before_publishing`: writes what else belongs to the plan.
 std::string plan_of(const RunDir& dir, const Config& config,
                     const std::vector<std::string>& overrides, const Threads& threads, bool alone,
-                    Progress& progress, const std::function<void()>& before_publishing = {}) {
+                    Progress& progress, const std::function<void()>& before_publishing) {
     // Until files are written, a search or a proof may take long without a place to stop at. Of
     // several processes none may end by itself: there each window of a search is such a place.
     std::optional<SignalsEnd> at_once;
@@ -265,7 +265,7 @@ std::string plan_again(const std::filesystem::path& path, const std::filesystem:
     if (!out.empty()) dir.begin_copy(from, kept);
     add_pool(dir, config, threads, Ranks{Ranks::Alone{}}, progress);
     dir.remove_work();
-    return plan_of(dir, config, overrides, threads, true, progress);
+    return plan_of(dir, config, overrides, threads, true, progress, {});
 }
 
 }  // namespace vfplan
