@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "engine/config/parameters.h"
-#include "engine/job/pipeline.h"
 #include "engine/folder/run_dir.h"
+#include "engine/job/pipeline.h"
 #include "engine/runtime/progress.h"
 #include "io/files.h"
 #include "kernels/error.h"
