@@ -5,6 +5,7 @@
 #include "io/features/crs.h"
 #include "io/features/reach.h"
 #include "io/formats/gdal.h"
+#include "io/sha256.h"
 #include "tests/http_server.h"
 #include "tests/io/formats/files.h"
 
