@@ -111,17 +111,11 @@ void flush_output() {
         fail_to_write(errno != 0 ? errno : EIO);
 }
 
-// Results name the folder, so it is looked at before there are any.
-std::filesystem::path checked_out(const std::filesystem::path& out) {
-    absolute_path(out, "--out");
-    return out;
-}
-
 std::filesystem::path out_of(const Shared& s) {
-    if (!s.out.empty()) return checked_out(s.out);
+    if (!s.out.empty()) return s.out;
     std::filesystem::path out = std::filesystem::path(s.job).stem();
     if (out.extension().empty() && std::filesystem::path(s.job) == out) out += ".run";
-    return checked_out(out);
+    return out;
 }
 
 bool is_job_file(const Shared& s) { return std::filesystem::path(s.job).extension() == ".toml"; }
@@ -130,7 +124,6 @@ bool is_job_file(const Shared& s) { return std::filesystem::path(s.job).extensio
 // may end it at once.
 BareSite job_or_site(const Shared& s) {
     if (is_job_file(s)) return {read_config(s.job, s.sets), {}};
-    absolute_path(s.job, "the site");
     const SignalsEnd at_once;
     return bare_site(s.job, s.sets);
 }
@@ -224,7 +217,6 @@ int sweep_job(const Shared& s, const Ranks& ranks) {
     }
     std::filesystem::path out = s.out;
     if (out.empty()) out = std::filesystem::path(s.job).stem().string() + ".sweep";
-    checked_out(out);
     const Comparison c = sweep(s.job, s.sets, out, s.threads, ranks, s.quiet);
     if (!s.quiet && ranks.leader()) {
         say(fmt::format("{}table      {}\npicture    {}\n", text_of(c, false),
@@ -356,7 +348,6 @@ int dispatch(int argc, char** argv, const Ranks& ranks) {
         return 0;
     }
     Progress progress(s.quiet);
-    if (!s.out.empty()) checked_out(s.out);
     const std::string text = plan_again(s.dir, s.out, s.sets, s.threads, progress);
     if (!s.quiet) say(text);
     return 0;

@@ -10,7 +10,6 @@
 #include "engine/config/toml_values.h"
 #include "io/files.h"
 #include "kernels/error.h"
-#include "kernels/printable.h"
 
 namespace vfplan {
 namespace {
@@ -104,10 +103,6 @@ Override parse_override(const std::string& text) {
     Override out;
     out.key = text.substr(0, equals);
     const std::string value = text.substr(equals + 1);
-    if (!is_utf8(text)) {
-        throw UsageError(fmt::format(
-            "--set {}: not in UTF-8, as job files and results are; rename what it names", text));
-    }
     if (too_deep("v = " + value)) {
         throw UsageError(
             fmt::format("--set {}: the value nests more than {} deep, and no parameter "
@@ -146,7 +141,7 @@ void make_absolute(const std::vector<Parameter>& all, const std::filesystem::pat
     for (const Parameter& p : all) {
         const auto* path = std::get_if<std::filesystem::path*>(&p.value);
         if (path == nullptr || (*path)->empty()) continue;
-        **path = absolute_path(folder / **path, p.key());
+        **path = std::filesystem::absolute(folder / **path).lexically_normal();
     }
 }
 
@@ -181,15 +176,6 @@ void check_together(const Config& c, const std::string& name) {
 }
 
 }  // namespace
-
-std::filesystem::path absolute_path(const std::filesystem::path& path, const std::string& what) {
-    const std::filesystem::path out = std::filesystem::absolute(path).lexically_normal();
-    if (is_utf8(out.string())) return out;
-    throw UsageError(
-        fmt::format("{} = {}: the path is not in UTF-8, and job.toml, summary.json and other "
-                    "results, which name it, are; rename the folder or file",
-                    what, out.string()));
-}
 
 Config config_of(Preset preset) {
     Config config;

@@ -45,13 +45,9 @@ struct Config {
 // The defaults of a preset.
 Config config_of(Preset preset);
 
-// A path as results name it: absolute, without "..". `what` names it in the message. Throws
-// UsageError when it is not UTF-8, as it may be by its own name or that of the current folder.
-std::filesystem::path absolute_path(const std::filesystem::path& path, const std::string& what);
-
 // Reads a job file and then `--set section.key=value` overrides. Throws UsageError with file,
 // line and column for a syntax error, an unknown key, a wrong type or a value out of range; for a
-// file of more than 16 MB and values that nest without an end; for paths that are not UTF-8.
+// file of more than 16 MB and values that nest without an end.
 // Paths in the file are relative to it, paths in overrides to the current folder; both leave
 // absolute. IoError when the file cannot be read.
 Config read_config(const std::filesystem::path& file, const std::vector<std::string>& overrides);

@@ -197,6 +197,7 @@ std::vector<std::string> files_of(const std::string& name, bool network) {
 }
 
 bool can_be_opened(const std::string& name) {
+    use_gdal();
     const QuietGdal quiet;
     return !read_head(name).empty();
 }

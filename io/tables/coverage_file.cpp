@@ -39,7 +39,6 @@ std::vector<Candidate> read_points(const h5::Reader& file) {
     const auto kind = file.read<std::uint8_t>("candidates/kind");
     sound::finite(file, "candidates/x", x);
     sound::finite(file, "candidates/y", y);
-    sound::finite(file, "candidates/vf", vf);
     sound::count(file, "candidates/y", y, x.size());
     sound::count(file, "candidates/cell", cell, x.size());
     sound::count(file, "candidates/vf", vf, x.size());

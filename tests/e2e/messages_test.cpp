@@ -34,39 +34,6 @@ TEST(Messages, NamesOfFilesMoveNoCursor) {
     EXPECT_TRUE(std::filesystem::exists(scratch / "a\x1b]0;b.png"));
 }
 
-TEST(Messages, PathsThatAreNotUtf8AreRefusedAtOnce) {
-    const Scratch scratch;
-    const std::string folder = scratch / "caf\xe9";
-    std::filesystem::create_directory(folder);
-    scratch.write("caf\xe9/site.geojson", site);
-    scratch.write("caf\xe9/job.toml", "[site]\ninput = \"site.geojson\"\n");
-    scratch.write("site.geojson", site);
-    const std::string job = scratch.write("job.toml", "[site]\ninput = \"site.geojson\"\n");
-    const auto before = scratch.names();
-    for (const Words& command :
-         std::vector<Words>{{"run", folder + "/job.toml", "--out", scratch / "out"},
-                            {"run", folder + "/site.geojson", "--out", scratch / "out"},
-                            {"run", job, "--out", folder + "/out"},
-                            {"precompute", job, "--out", folder + "/out"},
-                            {"run", job, "--out", scratch / "out", "--set",
-                             "site.input=" + folder + "/site.geojson"},
-                            {"run", job, "--out", scratch / "out", "--set", "site.layer=caf\xe9"},
-                            {"submit", job, "--print", "--out", folder + "/out"},
-                            {"sweep", job, "--set", "field.cell_m=1,2", "--out", folder + "/out"},
-                            {"plan", scratch / "none", "--out", folder + "/out"}}) {
-        const Output o = vfplan_expect(2, command);
-        EXPECT_NE(o.err.find("UTF-8"), std::string::npos) << o.err;
-        EXPECT_NE(o.err.find("caf\\xe9"), std::string::npos) << o.err;
-        EXPECT_EQ(scratch.names(), before);
-    }
-    // From inside, where only the current folder's name is to blame.
-    const Output there = run_program(
-        "bash", {"-c", "cd '" + folder + "' && '" + VFPLAN_BINARY + "' run job.toml --out out"});
-    EXPECT_EQ(there.code, 2) << there.err;
-    EXPECT_NE(there.err.find("UTF-8"), std::string::npos) << there.err;
-    EXPECT_EQ(scratch.names(), before);
-}
-
 TEST(Messages, OutputThatCannotBeWrittenIsAnError) {
     const Scratch scratch;
     scratch.write("site.geojson", site);

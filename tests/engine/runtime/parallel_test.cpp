@@ -2,6 +2,7 @@
 #include "engine/runtime/parallel.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <atomic>
@@ -151,10 +152,17 @@ TEST(Threads, NoMoreThreadsWorkThanAskedFor) {
 }
 
 TEST(Threads, SlurmSaysHowManyUnlessTheJobDoes) {
-    const Variable slurm("SLURM_CPUS_PER_TASK", "3");
-    EXPECT_EQ(Threads().count(), 3);
-    EXPECT_EQ(Threads(0).count(), 3);
-    EXPECT_EQ(Threads(2).count(), 2);
+    {
+        const Variable slurm("SLURM_CPUS_PER_TASK", "1");
+        EXPECT_EQ(Threads().count(), 1);
+        EXPECT_EQ(Threads(0).count(), 1);
+        EXPECT_EQ(Threads(2).count(), 2);
+    }
+    // No more than this process may use, whatever it says.
+    const Variable slurm("SLURM_CPUS_PER_TASK", "100000");
+    cpu_set_t set;
+    ASSERT_EQ(sched_getaffinity(0, sizeof set, &set), 0);
+    EXPECT_EQ(Threads().count(), CPU_COUNT(&set));
 }
 
 TEST(Threads, WithoutSlurmTheProcessorsCount) {
