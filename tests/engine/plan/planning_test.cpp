@@ -23,7 +23,8 @@ TEST(PlanTables, HoldTheRowsThatTheFileHas) {
         for (std::int64_t r = from; r < to; ++r) {
             block.table.add(test::row_of(table, r));
         }
-        blocks.push_back(folder.path() / "shards" / fmt::format("coverage-{:05}.h5", blocks.size()));
+        blocks.push_back(folder.path() / "shards" /
+                         fmt::format("coverage-{:05}.h5", blocks.size()));
         write_coverage_block(blocks.back(), "key", block);
     }
     const std::filesystem::path path = folder.path() / "coverage.h5";
