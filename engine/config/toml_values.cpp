@@ -126,8 +126,30 @@ struct Setter {
     }
 };
 
+// Between double quotes. The library's own writer takes three single ones for a text of several
+// lines, and does not look whether they stand in it.
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        const auto code = static_cast<unsigned char>(c);
+        if (c == '"' || c == '\\') {
+            out += '\\';
+            out += c;
+        } else if (code < 0x20 || code == 0x7f) {
+            out += fmt::format("\\u{:04x}", code);
+        } else {
+            out += c;
+        }
+    }
+    return out + "\"";
+}
+
 struct Writer {
     std::string operator()(const std::string* v) const {
+        const bool plain = std::none_of(v->begin(), v->end(), [](unsigned char c) {
+            return c < 0x20 || c == 0x7f || c == '\'';
+        });
+        if (!plain) return quoted(*v);
         std::ostringstream out;
         out << toml::value<std::string>(*v);
         return out.str();
@@ -160,9 +182,9 @@ struct Writer {
         return rules.empty() ? "{}" : fmt::format("{{ {} }}", fmt::join(rules, ", "));
     }
     std::string operator()(const std::vector<std::string>* v) const {
-        std::vector<std::string> quoted;
-        for (const std::string& s : *v) quoted.push_back((*this)(&s));
-        return fmt::format("[{}]", fmt::join(quoted, ", "));
+        std::vector<std::string> texts;
+        for (const std::string& s : *v) texts.push_back((*this)(&s));
+        return fmt::format("[{}]", fmt::join(texts, ", "));
     }
 };
 

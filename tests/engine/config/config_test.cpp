@@ -129,6 +129,23 @@ TEST(Config, EveryParameterSurvivesWritingAndReading) {
     }
 }
 
+TEST(Config, AnyTextSurvivesWritingAndReading) {
+    std::string all;
+    for (char c = 0x7f; c > 0; --c) all += c;
+    for (const std::string& text :
+         {std::string("a\n'''b"), std::string("'''"), std::string("a 'b' \"c\" \\"),
+          std::string("\r\n\t\x7f"), std::string("\"\"\"\n\"\"\""), std::string("a\\\n\xc3\xa9'"),
+          all}) {
+        Config c = read("");
+        c.site.layer = text;
+        c.site.roles = {{text, Role::wall}};
+        const Config again = parse_config(to_toml(c), "again.toml", "/elsewhere", {});
+        EXPECT_EQ(again.site.layer, text);
+        ASSERT_EQ(again.site.roles.size(), 1U);
+        EXPECT_EQ(again.site.roles[0].pattern, text);
+    }
+}
+
 TEST(Config, UnknownKeysSayWhereAndWhatWasMeant) {
     expect_words(message("[field]\ncel_m = 2\n"),
                  {"field.cel_m", "job.toml:3:1", "did you mean field.cell_m?"});
