@@ -34,6 +34,9 @@ void forget(std::size_t slot) noexcept {
     if (slot != 0) std::free(names[slot - 1].exchange(nullptr));
 }
 
+// What SQLite puts beside its file.
+constexpr std::array beside_database = {"-journal", "-wal", "-shm"};
+
 void sync(const std::filesystem::path& path, int flags) {
     const int fd = ::open(path.c_str(), flags | O_RDONLY | O_CLOEXEC);
     if (fd < 0) fail_on_file(path, "open", errno);
@@ -55,7 +58,7 @@ Aside::Aside(std::filesystem::path file, bool in_folder) : file_(std::move(file)
     slots_[0] = note(path_);
     if (!in_folder) return;
     std::size_t slot = 0;
-    for (const char* beside : {"-journal", "-wal", "-shm"}) {
+    for (const char* beside : beside_database) {
         slots_[++slot] = note(path_.string() + beside);
     }
     slots_[++slot] = note(folder_);
@@ -69,10 +72,7 @@ Aside::~Aside() {
 void Aside::remove() noexcept {
     ::unlink(path_.c_str());  // a link itself, not what it leads to
     if (folder_.empty()) return;
-    std::error_code ignored;
-    for (const char* beside : {"-journal", "-wal", "-shm"}) {
-        ::unlink((path_.string() + beside).c_str());
-    }
+    for (const char* beside : beside_database) ::unlink((path_.string() + beside).c_str());
     if (::unlink(folder_.c_str()) != 0) ::rmdir(folder_.c_str());
 }
 
@@ -90,8 +90,10 @@ void Aside::publish() {
     }
     published_ = true;
     if (!folder_.empty()) ::rmdir(folder_.c_str());
-    sync(file_.has_parent_path() ? file_.parent_path() : std::filesystem::path("."), O_DIRECTORY);
+    sync_folder(file_.has_parent_path() ? file_.parent_path() : std::filesystem::path("."));
 }
+
+void sync_folder(const std::filesystem::path& folder) { sync(folder, O_DIRECTORY); }
 
 void remove_asides() noexcept {
     for (std::atomic<char*>& name : names) {

@@ -37,6 +37,9 @@ private:
     bool published_ = false;
 };
 
+// Brings the names in a folder to the disk. Throws IoError.
+void sync_folder(const std::filesystem::path& folder);
+
 // Removes what is in the making in this process. Only what a signal handler may do; afterwards the
 // process must end.
 void remove_asides() noexcept;

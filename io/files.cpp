@@ -34,6 +34,17 @@ void fail_on_file(const std::filesystem::path& file, const std::string& what, in
                               advice_on(error)));
 }
 
+bool is_there(const std::filesystem::path& path) {
+    std::error_code error;
+    return std::filesystem::exists(std::filesystem::symlink_status(path, error));
+}
+
+void make_folders(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) fail_on_file(folder, "create", error.value());
+}
+
 std::string read_text(const std::filesystem::path& file) {
     errno = 0;
     std::ifstream in(file, std::ios::binary);

@@ -15,6 +15,11 @@ namespace vfplan {
 // What to do about it, without the file: "the disk is full: free space there and run again".
 std::string advice_on(int error);
 
+// True when a name is there, be it a symbolic link that leads nowhere.
+bool is_there(const std::filesystem::path& path);
+// Makes a folder and those around it, as far as they are missing. Throws IoError.
+void make_folders(const std::filesystem::path& folder);
+
 // Reads a text file. Throws IoError.
 std::string read_text(const std::filesystem::path& file);
 

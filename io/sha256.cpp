@@ -29,6 +29,12 @@ std::string Sha256::hex() {
     return out;
 }
 
+std::string sha256_of(std::string_view text) {
+    Sha256 hash;
+    hash.add(text.data(), text.size());
+    return hash.hex();
+}
+
 std::string sha256_of_file(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     if (!in) throw IoError(fmt::format("{}: cannot be opened for reading", file.string()));

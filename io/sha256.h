@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vfplan {
@@ -28,6 +29,7 @@ private:
     void* context_;
 };
 
+std::string sha256_of(std::string_view text);
 std::string sha256_of_file(const std::filesystem::path& file);
 
 }  // namespace vfplan

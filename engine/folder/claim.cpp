@@ -31,12 +31,7 @@ ClaimedFolder::ClaimedFolder(const RunDir& dir, const Config& config, const JobK
         new_job_ = !std::filesystem::exists(dir.file(job_name), error);
         if (fresh) dir.remove_run();
         dir.write_job(config, keys);
-        for (const char* name : {"shards", "work"}) {
-            std::filesystem::create_directories(dir.file(name), error);
-            if (!error) continue;
-            throw IoError(fmt::format("{}: cannot create: {}; {}", dir.file(name).string(),
-                                      error.message(), advice_on(error.value())));
-        }
+        for (const char* name : {"shards", "work"}) make_folders(dir.file(name));
     } catch (...) {
         undo();
         throw;

@@ -47,9 +47,12 @@ void remove_from(const fs::path& folder, const Wanted& wanted) {
     }
 }
 
-std::vector<std::string> with_summary(std::vector<std::string> names) {
-    names.emplace_back(summary_name);
-    return names;
+// All files of ours that lie in the folder itself, but for those that are locked.
+std::vector<std::string> all_files() {
+    std::vector<std::string> out = plan_files();
+    for (const std::string& name : table_files()) out.push_back(name);
+    out.insert(out.end(), {summary_name, job_name, provenance_name});
+    return out;
 }
 
 void refuse_unless(bool good, const fs::path& path, fs::file_type type) {
@@ -96,10 +99,7 @@ bool is_passing_name(std::string_view name) {
 }
 
 void refuse_links(const fs::path& folder) {
-    std::vector<std::string> files = with_summary(plan_files());
-    for (const std::string& name : table_files()) files.push_back(name);
-    files.insert(files.end(), {job_name, provenance_name});
-    for (const std::string& name : files) need_file(folder / name);
+    for (const std::string& name : all_files()) need_file(folder / name);
     if (need_folder(folder / "shards")) {
         for (const std::string& name : names_in(folder / "shards")) {
             if (is_shard_name(name)) need_file(folder / "shards" / name);
@@ -138,10 +138,7 @@ void remove_passing(const fs::path& folder) {
 }
 
 void remove_unfinished(const fs::path& folder) {
-    std::vector<std::string> files = with_summary(plan_files());
-    for (const std::string& name : table_files()) files.push_back(name);
-    files.insert(files.end(), {job_name, provenance_name});
-    for (const std::string& name : files) {
+    for (const std::string& name : all_files()) {
         const fs::path aside = folder / (name + in_the_making);
         if (!names_in(aside).empty()) {  // of libraries that put journals beside their file
             remove_from(aside, [&](const std::string& n) { return n.starts_with(name); });

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "engine/runtime/stop.h"
+#include "io/files.h"
 #include "kernels/error.h"
 
 namespace vfplan {
@@ -77,47 +78,43 @@ private:
     std::chrono::steady_clock::time_point until_;
 };
 
+// Followers of a job whose leader was killed. New ones come with this leader only.
+void wait_for_followers(const std::filesystem::path& folder, Patience& patience) {
+    const std::filesystem::path file = folder / ranks_name;
+    const Descriptor ranks(open_lock(file, false));
+    if (ranks.number() < 0) return;
+    while (!try_lock(ranks.number(), LOCK_EX, file)) patience.wait();
+}
+
+void write_mark(int descriptor, const std::filesystem::path& file) {
+    struct stat status {};
+    if (::fstat(descriptor, &status) != 0 || status.st_size != 0) return;
+    if (::write(descriptor, mark.data(), mark.size()) != static_cast<ssize_t>(mark.size())) {
+        fail_on_file(file, "write", errno);
+    }
+}
+
 }  // namespace
+
+void Descriptor::close() {
+    if (number_ >= 0) ::close(std::exchange(number_, -1));
+}
 
 FolderLock::FolderLock(const std::filesystem::path& folder, Hold hold,
                        std::chrono::milliseconds most)
     : file_(folder / (hold == Hold::follow ? ranks_name : lock_name)) {
     Patience patience(folder, most);
     const int how = hold == Hold::lead ? LOCK_EX : LOCK_SH;
-    try {
-        while (true) {
-            descriptor_ = open_lock(file_, true);
-            while (!try_lock(descriptor_, how, file_)) patience.wait();
-            if (same_file(descriptor_, file_)) break;  // else it went with its folder meanwhile
-            ::close(std::exchange(descriptor_, -1));
-            patience.wait();
-        }
-        if (hold != Hold::lead) return;
-        // Followers of a job whose leader was killed. New ones come with this leader only.
-        const int ranks = open_lock(folder / ranks_name, false);
-        if (ranks >= 0) {
-            try {
-                while (!try_lock(ranks, LOCK_EX, folder / ranks_name)) patience.wait();
-            } catch (...) {
-                ::close(ranks);
-                throw;
-            }
-            ::close(ranks);
-        }
-        struct stat status {};
-        if (::fstat(descriptor_, &status) == 0 && status.st_size == 0 &&
-            ::write(descriptor_, mark.data(), mark.size()) != static_cast<ssize_t>(mark.size())) {
-            throw IoError(fmt::format("{}: cannot be written: {}; check free space and permissions",
-                                      file_.string(), std::strerror(errno)));
-        }
-    } catch (...) {
-        if (descriptor_ >= 0) ::close(descriptor_);
-        throw;
+    while (true) {
+        lock_.take(open_lock(file_, true));
+        while (!try_lock(lock_.number(), how, file_)) patience.wait();
+        if (same_file(lock_.number(), file_)) break;  // else it went with its folder meanwhile
+        lock_.close();
+        patience.wait();
     }
-}
-
-FolderLock::~FolderLock() {
-    if (descriptor_ >= 0) ::close(descriptor_);
+    if (hold != Hold::lead) return;
+    wait_for_followers(folder, patience);
+    write_mark(lock_.number(), file_);
 }
 
 void FolderLock::remove() {
@@ -126,13 +123,11 @@ void FolderLock::remove() {
 }
 
 bool is_marked(const std::filesystem::path& folder) {
-    const int file =
-        ::open((folder / lock_name).c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
-    if (file < 0) return false;
+    const Descriptor file(
+        ::open((folder / lock_name).c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK));
+    if (file.number() < 0) return false;
     std::array<char, mark.size()> text{};
-    const ssize_t n = ::read(file, text.data(), text.size());
-    ::close(file);
-    return n == static_cast<ssize_t>(text.size()) &&
+    return ::read(file.number(), text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
            std::string_view(text.data(), text.size()) == mark;
 }
 

@@ -9,6 +9,25 @@ namespace vfplan {
 inline constexpr const char* lock_name = ".lock";    // in each run directory; also its mark as ours
 inline constexpr const char* ranks_name = ".ranks";  // where several processes worked together
 
+// An open file, closed with the object; -1: none.
+class Descriptor {
+public:
+    explicit Descriptor(int number = -1) : number_(number) {}
+    ~Descriptor() { close(); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    int number() const { return number_; }
+    // Instead of the one that was open.
+    void take(int number) {
+        close();
+        number_ = number;
+    }
+    void close();
+
+private:
+    int number_;
+};
+
 // Keeps other jobs out of a run directory while this process lives: on one machine, and on several
 // where the file system passes flock() on (NFS from version 3 on does, Lustre when it is mounted
 // with flock). A file that cannot be opened or locked is an IoError, never a free folder.
@@ -23,7 +42,6 @@ public:
     // folder is there; followers come after their leader.
     FolderLock(const std::filesystem::path& folder, Hold hold,
                std::chrono::milliseconds patience = std::chrono::seconds(10));
-    ~FolderLock();
     FolderLock(const FolderLock&) = delete;
     FolderLock& operator=(const FolderLock&) = delete;
 
@@ -33,7 +51,7 @@ public:
 
 private:
     std::filesystem::path file_;
-    int descriptor_ = -1;
+    Descriptor lock_;
 };
 
 // True when the folder is marked as a run directory of ours.

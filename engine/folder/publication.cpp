@@ -1,6 +1,5 @@
 #include "engine/folder/publication.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -22,22 +21,11 @@ std::string text_of(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string hash_of(const std::string& text) {
-    Sha256 hash;
-    hash.add(text);
-    return hash.hex();
-}
-
 // All that summary.json vouches for.
 std::vector<std::string> vouched_for() {
     std::vector<std::string> out = {job_name, provenance_name};
     for (const std::string& name : plan_files()) out.push_back(name);
     return out;
-}
-
-bool is_there(const std::filesystem::path& file) {
-    std::error_code error;
-    return std::filesystem::exists(std::filesystem::symlink_status(file, error));
 }
 
 }  // namespace
@@ -46,11 +34,7 @@ void withdraw_plan(const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / summary_name;
     if (::unlink(file.c_str()) != 0 && errno != ENOENT) fail_on_file(file, "remove", errno);
     // On the disk too before anything of a new plan is.
-    const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (fd < 0) fail_on_file(folder, "open", errno);
-    const int error = ::fsync(fd) == 0 ? 0 : errno;
-    ::close(fd);
-    if (error != 0) fail_on_file(folder, "sync", error);
+    sync_folder(folder);
 }
 
 void publish_plan(const std::filesystem::path& folder, Json summary) {
@@ -60,7 +44,7 @@ void publish_plan(const std::filesystem::path& folder, Json summary) {
     }
     summary["files"] = files;
     summary.erase(own_hash);
-    summary[own_hash] = hash_of(text_of(summary));
+    summary[own_hash] = sha256_of(text_of(summary));
     write_text(folder / summary_name, text_of(summary));
 }
 
@@ -82,7 +66,7 @@ std::vector<std::string> faults_since_published(const std::filesystem::path& fol
     const Json said = summary[own_hash];
     const Json files = summary["files"];
     summary.erase(own_hash);
-    if (said != hash_of(text_of(summary))) return {changed};
+    if (said != sha256_of(text_of(summary))) return {changed};
     std::vector<std::string> out;
     for (const std::string& name : vouched_for()) {
         const bool there = is_there(folder / name);

@@ -23,31 +23,17 @@ constexpr std::string_view version_label = " tables ";
 constexpr std::string_view text_label = "# text ";  // hash of all that follows the line
 constexpr std::size_t hash_digits = 64;
 
-std::string hash_of(std::string_view text) {
-    Sha256 h;
-    h.add(text.data(), text.size());
-    return h.hex();
-}
-
 bool is_hash(std::string_view text) {
     return text.size() == hash_digits &&
            text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-}
-
-[[noreturn]] void cannot_create(const std::filesystem::path& path, const std::error_code& error) {
-    throw IoError(fmt::format("{}: cannot create: {}; {}", path.string(), error.message(),
-                              advice_on(error.value())));
 }
 
 }  // namespace
 
 JobKeys job_keys(const Config& config, const std::string& input_sha256) {
     const auto hash = [&](Stale stage) {
-        Sha256 h;
-        h.add(fmt::format("vfplan tables {}\n", tables_version));
-        h.add(canonical(config, stage));
-        h.add(input_sha256);
-        return h.hex();
+        return sha256_of(fmt::format("vfplan tables {}\n{}{}", tables_version,
+                                     canonical(config, stage), input_sha256));
     };
     return {hash(Stale::tables), hash(Stale::plan)};
 }
@@ -71,7 +57,7 @@ RunDir::Header RunDir::header() const {
     std::from_chars(version.data() + version_label.size(), version.data() + version.size(),
                     out.version);
     out.key = said.substr(0, hash_digits);
-    out.whole = second.substr(text_label.size()) == hash_of(rest);
+    out.whole = second.substr(text_label.size()) == sha256_of(rest);
     return out;
 }
 
@@ -131,7 +117,7 @@ void RunDir::check(const JobKeys& keys, bool fresh) const {
 void RunDir::write_job(const Config& config, const JobKeys& keys) const {
     const std::string text = to_toml(config);
     write_text(file(job_name), fmt::format("{}{}{}{}\n{}{}\n{}", key_label, keys.job, version_label,
-                                           tables_version, text_label, hash_of(text), text));
+                                           tables_version, text_label, sha256_of(text), text));
 }
 
 std::string RunDir::provenance() const {
@@ -181,8 +167,7 @@ void RunDir::begin_copy(const RunDir& from, const std::vector<std::string>& over
     }
     write_job(config, keys);
     write_text(file(provenance_name), provenance);
-    std::filesystem::create_directories(path_ / "shards", error);
-    if (error) cannot_create(path_ / "shards", error);
+    make_folders(path_ / "shards");
     std::vector<std::filesystem::path> tables;
     for (const auto& entry : std::filesystem::directory_iterator(from.file("shards"))) {
         const std::string name = entry.path().filename().string();

@@ -37,7 +37,7 @@ double outputs_take(const Config& config, const Estimate& e, OutputCost Output::
         static_cast<double>(e.pieces) * (lists_all(config.output.pieces, e.pieces) ? 1 : uncovered);
     double sum = 0;
     for (const Output& o : outputs()) {
-        if (std::find(formats.begin(), formats.end(), o.format) == formats.end()) continue;
+        if (!is_asked(formats, o.format)) continue;
         sum += (o.*cost).of(listed, static_cast<double>(e.candidates), pixels);
     }
     return sum;

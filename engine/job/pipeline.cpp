@@ -69,7 +69,7 @@ void write_outputs(const RunDir& dir, const std::vector<std::string>& formats,
                    const Results& results, const Threads& threads) {
     std::vector<const Output*> asked;
     for (const Output& o : outputs()) {
-        if (std::find(formats.begin(), formats.end(), o.format) != formats.end()) {
+        if (is_asked(formats, o.format)) {
             asked.push_back(&o);
         } else {
             std::error_code ignored;
@@ -90,10 +90,8 @@ void write_outputs(const RunDir& dir, const std::vector<std::string>& formats,
 std::string pieces_text(const Config& config, const std::vector<PieceStatus>& pieces) {
     const auto count = static_cast<std::int64_t>(pieces.size());
     const auto& formats = config.output.formats;
-    const auto asked = [&](const char* format) {
-        return std::find(formats.begin(), formats.end(), format) != formats.end();
-    };
-    if (lists_all(config.output.pieces, count) || !(asked("csv") || asked("gpkg"))) return "";
+    const bool listed = is_asked(formats, "csv") || is_asked(formats, "gpkg");
+    if (lists_all(config.output.pieces, count) || !listed) return "";
     return fmt::format(
         "files        pieces.csv and plan.gpkg list the {} pieces that are not covered, of {} "
         "(output.pieces = \"all\" lists all)\n",

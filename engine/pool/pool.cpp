@@ -170,9 +170,7 @@ private:
 }  // namespace
 
 std::string pool_key(const std::string& tables_key, const PoolOptions& options) {
-    Sha256 hash;
-    hash.add(fmt::format("pool 1\n{}\n{} {}\n", tables_key, options.tried, options.taken));
-    return hash.hex();
+    return sha256_of(fmt::format("pool 1\n{}\n{} {}\n", tables_key, options.tried, options.taken));
 }
 
 void make_pool(const std::filesystem::path& dir, const PoolOptions& options, const Threads& threads,

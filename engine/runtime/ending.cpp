@@ -1,28 +1,13 @@
 #include "engine/runtime/ending.h"
 
-#include <fmt/format.h>
-
-#include <cstdio>
-
 #include "engine/runtime/exit_code.h"
 #include "engine/runtime/ranks.h"
-#include "kernels/printable.h"
 
 namespace vfplan {
 
-namespace {
-
-// Where standard error cannot be written, nobody can be told.
-void tell_person(const std::string& message) {
-    const std::string line = fmt::format("vfplan: {}\n", printable(message));
-    std::fwrite(line.data(), 1, line.size(), stderr);
-}
-
-}  // namespace
-
 int run_to_end(const std::function<int(const Ranks&)>& program) {
-    const auto tell = [](const Ending& ending) {
-        if (!ending.message.empty()) tell_person(ending.message);
+    const auto told = [](const Ending& ending) {
+        tell(ending);
         return ending.code;
     };
     try {
@@ -33,10 +18,10 @@ int run_to_end(const std::function<int(const Ranks&)>& program) {
             return code;
         } catch (...) {
             const Ending ending = ending_of(std::current_exception());
-            return ranks.fail(ending.code) ? tell(ending) : ending.code;
+            return ranks.fail(ending.code) ? told(ending) : ending.code;
         }
     } catch (...) {
-        return tell(ending_of(std::current_exception()));
+        return told(ending_of(std::current_exception()));
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include "engine/runtime/limits.h"
 #include "io/files.h"
 #include "kernels/error.h"
+#include "kernels/printable.h"
 
 namespace vfplan {
 
@@ -39,6 +41,12 @@ Ending ending_of(const std::exception_ptr& error) {
     } catch (...) {
         return {70, "unknown exception; this is a bug, please report it with the job file"};
     }
+}
+
+void tell(const Ending& ending) {
+    if (ending.message.empty()) return;
+    const std::string line = fmt::format("vfplan: {}\n", printable(ending.message));
+    std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
 }  // namespace vfplan

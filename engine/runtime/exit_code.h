@@ -14,4 +14,8 @@ struct Ending {
 // Thread-safe.
 Ending ending_of(const std::exception_ptr& error);
 
+// Prints the message, if there is one, to standard error; where that cannot be written, nobody can
+// be told.
+void tell(const Ending& ending);
+
 }  // namespace vfplan

@@ -43,9 +43,7 @@ constexpr char memory_text[] =
     if (const std::exception_ptr error = std::current_exception()) {
         const Ending ending = ending_of(error);
         code = ending.code;
-        [[maybe_unused]] const ssize_t written =
-            write(STDERR_FILENO, ending.message.data(), ending.message.size());
-        [[maybe_unused]] const ssize_t line = write(STDERR_FILENO, "\n", 1);
+        tell(ending);
     }
     remove_asides();
     _exit(code);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "engine/runtime/shell_word.h"
+#include "io/files.h"
 #include "io/tables/shard_index.h"
 #include "kernels/error.h"
 
@@ -57,11 +58,7 @@ ShardNames TableJob::passing(const std::string& phase, const std::string& varian
 
 void make_shard_folders(const std::filesystem::path& dir, std::int64_t tile_cells) {
     for (const auto& folder : {dir / "shards", passing_folder(dir, tile_cells)}) {
-        std::error_code error;
-        std::filesystem::create_directories(folder, error);
-        if (!error) continue;
-        throw IoError(fmt::format("{}: cannot create: {}; check free space and permissions",
-                                  folder.string(), error.message()));
+        make_folders(folder);
     }
 }
 

@@ -21,10 +21,14 @@ const std::vector<Output>& outputs() {
     return all;
 }
 
+bool is_asked(const std::vector<std::string>& formats, std::string_view format) {
+    return std::find(formats.begin(), formats.end(), format) != formats.end();
+}
+
 std::vector<std::string> output_formats() {
     std::vector<std::string> out;
     for (const Output& o : outputs()) {
-        if (std::find(out.begin(), out.end(), o.format) == out.end()) out.emplace_back(o.format);
+        if (!is_asked(out, o.format)) out.emplace_back(o.format);
     }
     return out;
 }

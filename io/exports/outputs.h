@@ -72,6 +72,8 @@ struct Output {
 
 // In the order in which they are written.
 const std::vector<Output>& outputs();
+// Whether `format` is among those that are asked for.
+bool is_asked(const std::vector<std::string>& formats, std::string_view format);
 // Each format once.
 std::vector<std::string> output_formats();
 

@@ -200,10 +200,7 @@ std::string input_sha256(const std::vector<std::filesystem::path>& files) {
                   [&](std::string_view part) { content.add(part.data(), part.size()); });
         hashes += content.hex();
     }
-    if (files.size() == 1) return hashes;
-    Sha256 whole;
-    whole.add(hashes);
-    return whole.hex();
+    return files.size() == 1 ? hashes : sha256_of(hashes);
 }
 
 namespace {

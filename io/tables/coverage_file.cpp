@@ -6,6 +6,7 @@
 
 #include "io/checksum.h"
 #include "io/columns.h"
+#include "io/files.h"
 #include "io/tables/crs.h"
 #include "io/tables/shard.h"
 #include "io/tables/shard_index.h"
@@ -348,8 +349,7 @@ Candidates read_candidates(const std::filesystem::path& dir, CandidatePool pool)
     Candidates out{read_coverage(axis), CoverageEntries(axis)};
     if (pool == CandidatePool::axis) return out;
     const std::filesystem::path more = dir / pool_name;
-    std::error_code error;
-    if (!std::filesystem::exists(std::filesystem::symlink_status(more, error))) {
+    if (!is_there(more)) {
         throw IoError(
             fmt::format("{}: missing, and plan.candidates = \"pool\" needs it; run the job "
                         "again and it is made, or plan with plan.candidates=axis",

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "io/checksum.h"
+#include "io/files.h"
 #include "io/h5_reader.h"
 #include "io/tables/shard.h"
 #include "kernels/error.h"
@@ -91,8 +92,7 @@ std::vector<std::filesystem::path> check_shards(const std::filesystem::path& ind
     for (std::size_t i = 0; i * hash_bytes < hashes.size(); ++i) {
         const std::filesystem::path shard =
             index.parent_path() / fmt::format("{}{:0{}}.h5", stem, i, digits);
-        std::error_code error;
-        if (!std::filesystem::exists(std::filesystem::symlink_status(shard, error))) {
+        if (!is_there(shard)) {
             throw IoError(
                 fmt::format("{}: missing, and {} needs it; run the job again and it is "
                             "made anew",

@@ -21,17 +21,14 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
+
+from trials import Trouble, in_folder, small_city
 
 POLITE = [signal.SIGTERM, signal.SIGHUP, signal.SIGINT, signal.SIGUSR1]
 MAY_DIFFER = {"summary.json", "provenance.json", ".lock", ".ranks"}
 B = ["--set", "overlap.threshold=0.2"]
 MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "-n"]
-
-
-class Trouble(Exception):
-    pass
 
 
 def files_of(folder):
@@ -72,11 +69,7 @@ class Killer:
             raise Trouble(f"{' '.join(words)}: exit code {done.returncode}: {done.stderr}")
 
     def prepare(self):
-        subprocess.run([self.program, "generate", "city", "--size-km", "0.5", "--seed", "3", "--out",
-                        self.at("city.geojson")], check=True, stdout=subprocess.DEVNULL)
-        with open(self.at("job.toml"), "w", encoding="utf-8") as job:
-            job.write('preset = "outdoor"\n[site]\ninput = "city.geojson"\n[field]\ncell_m = 2\n'
-                      'tile_cells = 64\n[scanner]\nrange_max_m = 30\n[output]\nmap_px = 400\n')
+        small_city(self.program, self.folder)
         began = time.monotonic()
         self.must(self.run_words("A"))
         self.whole_s = time.monotonic() - began
@@ -190,28 +183,21 @@ def main():
     parser.add_argument("--ranks", default="1")
     parser.add_argument("--seed", type=int, default=int(time.time()))
     args = parser.parse_args()
-    rng = random.Random(args.seed)
-    print(f"seed {args.seed}", flush=True)
     ranks = [int(r) for r in args.ranks.split(",")]
-    with tempfile.TemporaryDirectory(prefix="vfplan-kills-") as folder:
-        killer = Killer(os.path.abspath(args.program), folder, rng)
-        try:
-            killer.prepare()
-            rounds = 0
-            while sum(killer.kills.values()) < args.kills:
-                killer.round(ranks[rounds % len(ranks)])
-                rounds += 1
-        except Trouble as e:
-            print(f"seed {args.seed}: {e}")
-            keep = tempfile.mkdtemp(prefix="vfplan-kills-kept-")
-            shutil.copytree(folder, keep, dirs_exist_ok=True)
-            print(f"the folders are in {keep}")
-            return 1
-    for key in sorted(killer.kills):
-        print("  {0:8} {1} rank(s), {2:6} {3}: {4}".format(*key, killer.kills[key]))
-    print(f"{sum(killer.kills.values())} ended in {rounds} rounds; {killer.accepted} folders accepted, "
-          f"each one plan; the slowest polite end took {killer.slowest:.1f} s")
-    return 0
+
+    def trial(folder):
+        killer = Killer(os.path.abspath(args.program), folder, random.Random(args.seed))
+        killer.prepare()
+        rounds = 0
+        while sum(killer.kills.values()) < args.kills:
+            killer.round(ranks[rounds % len(ranks)])
+            rounds += 1
+        for key in sorted(killer.kills):
+            print("  {0:8} {1} rank(s), {2:6} {3}: {4}".format(*key, killer.kills[key]))
+        print(f"{sum(killer.kills.values())} ended in {rounds} rounds; {killer.accepted} folders "
+              f"accepted, each one plan; the slowest polite end took {killer.slowest:.1f} s")
+
+    return in_folder("kills", trial, args.seed)
 
 
 if __name__ == "__main__":

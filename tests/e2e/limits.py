@@ -18,14 +18,11 @@ import resource
 import shutil
 import subprocess
 import sys
-import tempfile
+
+from trials import Trouble, in_folder, small_city
 
 MB = 1 << 20
 NOBODY = 65534
-
-
-class Trouble(Exception):
-    pass
 
 
 def limited(which, value, user=None):
@@ -151,28 +148,17 @@ def main():
     parser.add_argument("--step", type=int, default=40)
     parser.add_argument("--only", default="memory,threads,files,descriptors,disk")
     args = parser.parse_args()
-    with tempfile.TemporaryDirectory(prefix="vfplan-limits-") as folder:
-        try:
-            job = args.job
-            if job is None:
-                job = os.path.join(folder, "job.toml")
-                subprocess.run([args.program, "generate", "city", "--size-km", "0.5", "--seed", "3",
-                                "--out", os.path.join(folder, "city.geojson")], check=True,
-                               stdout=subprocess.DEVNULL)
-                with open(job, "w", encoding="utf-8") as file:
-                    file.write('preset = "outdoor"\n[site]\ninput = "city.geojson"\n[field]\n'
-                               "cell_m = 2\ntile_cells = 64\n[scanner]\nrange_max_m = 30\n[output]\n"
-                               "map_px = 300\n")
-            limits = Limits(os.path.abspath(args.program), os.path.abspath(job), folder)
-            for name in args.only.split(","):
-                if name == "memory":
-                    limits.memory(args.step)
-                else:
-                    getattr(limits, name)()
-        except Trouble as e:
-            print(e)
-            return 1
-    return 0
+
+    def trial(folder):
+        job = args.job or small_city(args.program, folder)
+        limits = Limits(os.path.abspath(args.program), os.path.abspath(job), folder)
+        for name in args.only.split(","):
+            if name == "memory":
+                limits.memory(args.step)
+            else:
+                getattr(limits, name)()
+
+    return in_folder("limits", trial)
 
 
 if __name__ == "__main__":

@@ -17,18 +17,15 @@ import random
 import shutil
 import subprocess
 import sys
-import tempfile
 import time
 
 import h5py
 import numpy
 
+from trials import Trouble, in_folder
+
 TRAILER = 80
 INDICES = {"field": "field.h5", "coverage": "coverage.h5", "pool": "pool.h5"}
-
-
-class Trouble(Exception):
-    pass
 
 
 def call(program, words):
@@ -209,20 +206,14 @@ def main():
     parser.add_argument("--resealed", type=int, default=120)
     parser.add_argument("--seed", type=int, default=int(time.time()))
     args = parser.parse_args()
-    print(f"seed {args.seed}", flush=True)
     rng = random.Random(args.seed)
-    with tempfile.TemporaryDirectory(prefix="vfplan-tampered-") as folder:
-        try:
-            prepare(args.program, folder)
-            change_bytes(args.program, folder, args.bytes, rng)
-            change_tables(args.program, folder, args.resealed, rng)
-        except Trouble as e:
-            print(f"seed {args.seed}: {e}")
-            keep = tempfile.mkdtemp(prefix="vfplan-tampered-kept-")
-            shutil.copytree(folder, keep, dirs_exist_ok=True)
-            print(f"the folders are in {keep}")
-            return 1
-    return 0
+
+    def trial(folder):
+        prepare(args.program, folder)
+        change_bytes(args.program, folder, args.bytes, rng)
+        change_tables(args.program, folder, args.resealed, rng)
+
+    return in_folder("tampered", trial, args.seed)
 
 
 if __name__ == "__main__":
