@@ -165,20 +165,28 @@ Plan make_plan(const Threads& threads, const PlanInput& in, const PlanOptions& o
                PlanReport& report, Progress* progress) {
     report = {};
     Plan plan;
+    std::vector<std::vector<std::int32_t>> components = ranked_components(in);
+    // Points off the ridges that overlap with none on them make no network of their own: what they
+    // cover is covered without. Of all candidates they come last.
+    std::erase_if(components, [&](const std::vector<std::int32_t>& members) {
+        return in.candidates[idx(members.front())].kind == CandidateKind::pool;
+    });
     plan.pieces = in.status;
     std::vector<std::uint8_t> wanted(in.status.size());
+    for (const std::vector<std::int32_t>& members : components) {
+        for (const std::int32_t c : members) {
+            // What the tables say that no cell sees, but for rounding, the pool may see after all.
+            for (const std::int32_t p : in.rows.row(c)) wanted[idx(p)] = 1;
+        }
+    }
     for (std::size_t p = 0; p < wanted.size(); ++p) {
-        wanted[p] = in.status[p] == PieceStatus::covered ? 1 : 0;
         if (wanted[p] != 0) plan.pieces[p] = PieceStatus::unreached;
     }
     Workspace work(in.graph);
     std::vector<Network> networks;
     std::vector<std::uint8_t> fixed(idx(in.graph.size()), 0);
     std::vector<std::int32_t> owner(in.piece_length_m.size(), -1);
-    for (std::vector<std::int32_t>& members : ranked_components(in)) {
-        // Points off the ridges that overlap with none on them make no network of their own: what
-        // they cover is covered without. Of all candidates they come last.
-        if (in.candidates[idx(members.front())].kind == CandidateKind::pool) continue;
+    for (std::vector<std::int32_t>& members : components) {
         std::vector<std::int32_t> forced;
         bool adds = false;
         const auto number = static_cast<std::int32_t>(networks.size());

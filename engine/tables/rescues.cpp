@@ -18,89 +18,110 @@ constexpr int samples = 8;               // points along a piece that are looked
 constexpr double off_the_wall_m = 2e-4;  // how far before the wall they lie
 constexpr std::size_t tests_most = 200;  // real views from cells that look good
 
+// A cell from which some of a piece may be seen.
 struct Option {
-    std::int64_t cell;  // of the whole grid
-    int seen;           // sample points in sight
-    bool domain;        // VF above the threshold
+    bool domain;  // VF above the threshold
     float vf;
+    std::int64_t cell;  // of the whole grid
+
+    // The better ones first: inside the domain, with the greatest VF.
+    bool operator<(const Option& b) const {
+        return std::tuple(!domain, -vf, cell) < std::tuple(!b.domain, -b.vf, b.cell);
+    }
 };
 
-// The cells from which enough of a piece may be seen, the best first: inside the domain, with
-// the greatest VF. `piece` is the scene's.
-std::vector<Option> options_for(const TableJob& job, const Scene& scene, const FieldWindow& field,
-                                double threshold_rad, std::int32_t piece) {
-    const Grid& grid = job.layout().grid;
-    const Pieces::Place place = scene.pieces().place(piece);
-    const Wall& wall = scene.walls()[idx(place.wall)];
-    const Vec2d e = (wall.b - wall.a).normalized();
-    const Vec2d normal = place.side == left ? Vec2d(-e.y(), e.x()) : Vec2d(e.y(), -e.x());
-    const Scanner& scanner = job.scenes.options().scanner;
-    std::vector<Vec2d> points;
-    std::vector<Sight> sights;
+// A piece, looked at from points along it. `piece` is the scene's.
+class PieceInSight {
+public:
+    PieceInSight(const TableJob& job, const Scene& scene, std::int32_t piece)
+        : grid_(job.layout().grid), scene_(scene), scanner_(job.scenes.options().scanner) {
+        const Pieces::Place place = scene.pieces().place(piece);
+        const Wall& wall = scene.walls()[idx(place.wall)];
+        const Vec2d e = (wall.b - wall.a).normalized();
+        normal_ = place.side == left ? Vec2d(-e.y(), e.x()) : Vec2d(e.y(), -e.x());
+        for (int k = 0; k < samples; ++k) {
+            const double s = place.s0_m + (place.s1_m - place.s0_m) * (k + 0.5) / samples;
+            points_.push_back(wall.at(s) + off_the_wall_m * normal_);
+            sights_.emplace_back(scene, points_.back());
+        }
+        needed_ = std::max(1.0, job.scenes.options().visible_fraction * samples - 1);
+        cos_limit_ = std::cos(scanner_.max_incidence_deg * pi / 180) - 1e-9;
+    }
+
+    // The cells in question, in no order.
+    std::vector<Option> options(const FieldWindow& field, double threshold_rad) const;
+
+    // From how many points a cell's centre is in sight; 0 when these are too few.
+    int seen_from(const Vec2d& centre) const {
+        int seen = 0;
+        for (int k = 0; k < samples; ++k) {
+            if (seen + samples - k < needed_) return 0;
+            const Vec2d d = centre - points_[idx(k)];
+            const double far = d.norm();
+            if (far < scanner_.range_min_m || far > scanner_.range_max_m) continue;
+            if (d.dot(normal_) < cos_limit_ * far) continue;
+            if (sights_[idx(k)].sees(centre)) ++seen;
+        }
+        return seen < needed_ ? 0 : seen;
+    }
+
+private:
+    const Grid& grid_;
+    const Scene& scene_;
+    const Scanner& scanner_;
+    Vec2d normal_;
+    std::vector<Vec2d> points_;
+    std::vector<Sight> sights_;
+    double needed_ = 1;
+    double cos_limit_ = 0;
+};
+
+std::vector<Option> PieceInSight::options(const FieldWindow& field, double threshold_rad) const {
+    const Vec2d corner = grid_.origin - scene_.origin();
+    const auto column = [&](double x) {
+        return static_cast<std::int32_t>(std::clamp(std::floor((x - corner.x()) / grid_.cell_m),
+                                                    0.0, static_cast<double>(grid_.nx - 1)));
+    };
+    const auto row = [&](double y) {
+        return static_cast<std::int32_t>(std::clamp(std::floor((y - corner.y()) / grid_.cell_m),
+                                                    0.0, static_cast<double>(grid_.ny - 1)));
+    };
     Box box;
-    for (int k = 0; k < samples; ++k) {
-        const double s = place.s0_m + (place.s1_m - place.s0_m) * (k + 0.5) / samples;
-        points.push_back(wall.at(s) + off_the_wall_m * normal);
-        sights.emplace_back(scene, points.back());
-        const Box reach = sights.back().reach(scanner.range_max_m);
+    for (const Sight& s : sights_) {
+        const Box reach = s.reach(scanner_.range_max_m);
         box.add(reach.min);
         box.add(reach.max);
     }
-    const double needed = std::max(1.0, job.scenes.options().visible_fraction * samples - 1);
-    const double cos_limit = std::cos(scanner.max_incidence_deg * pi / 180) - 1e-9;
-    const Vec2d corner = grid.origin - scene.origin();
-    const auto column = [&](double x) {
-        return static_cast<std::int32_t>(std::clamp(std::floor((x - corner.x()) / grid.cell_m), 0.0,
-                                                    static_cast<double>(grid.nx - 1)));
-    };
-    const auto row = [&](double y) {
-        return static_cast<std::int32_t>(std::clamp(std::floor((y - corner.y()) / grid.cell_m), 0.0,
-                                                    static_cast<double>(grid.ny - 1)));
-    };
-    std::vector<Option> out;
     const std::int32_t first_row = row(box.min.y());
     const std::int32_t first_column = column(box.min.x());
     const std::int32_t last_column = column(box.max.x());
     std::vector<Sight::Stretches> in_sight(idx(row(box.max.y()) - first_row + 1));
-    for (const Sight& s : sights) {
-        s.add_rows(scanner.range_max_m, corner.y() + (first_row + 0.5) * grid.cell_m, grid.cell_m,
-                   in_sight);
+    for (const Sight& s : sights_) {
+        s.add_rows(scanner_.range_max_m, corner.y() + (first_row + 0.5) * grid_.cell_m,
+                   grid_.cell_m, in_sight);
     }
+    std::vector<Option> out;
     for (std::int32_t iy = first_row; iy <= row(box.max.y()); ++iy) {
         auto& stretches = in_sight[idx(iy - first_row)];
         std::sort(stretches.begin(), stretches.end());
         auto stretch = stretches.begin();
         for (std::int32_t ix = first_column; ix <= last_column; ++ix) {
-            const double x = corner.x() + (ix + 0.5) * grid.cell_m;
+            const double x = corner.x() + (ix + 0.5) * grid_.cell_m;
             // On to the next stretch that does not end before this cell.
-            while (stretch != stretches.end() && stretch->second < x - grid.cell_m) ++stretch;
+            while (stretch != stretches.end() && stretch->second < x - grid_.cell_m) ++stretch;
             if (stretch == stretches.end()) break;
-            if (stretch->first > x + grid.cell_m) {
+            if (stretch->first > x + grid_.cell_m) {
                 ix = std::max(ix, column(stretch->first) - 1);
                 continue;
             }
             if (!field.inside(ix, iy)) continue;  // beyond range, but for rounding
             const std::size_t i = field.index(ix, iy);
             if (std::isnan(field.vf_rad[i])) continue;
-            const std::int64_t cell = grid.id(ix, iy);
-            const Vec2d c = grid.centre(cell) - scene.origin();
-            if ((c - points[0]).dot(normal) <= 0) continue;
-            int seen = 0;
-            for (int k = 0; k < samples; ++k) {
-                if (seen + samples - k < needed) break;
-                const Vec2d d = c - points[idx(k)];
-                const double far = d.norm();
-                if (far < scanner.range_min_m || far > scanner.range_max_m) continue;
-                if (d.dot(normal) < cos_limit * far) continue;
-                if (sights[idx(k)].sees(c)) ++seen;
-            }
-            if (seen < needed) continue;
-            out.push_back({cell, seen, field.in_domain(i, threshold_rad), field.vf_rad[i]});
+            const std::int64_t cell = grid_.id(ix, iy);
+            if ((grid_.centre(cell) - scene_.origin() - points_[0]).dot(normal_) <= 0) continue;
+            out.push_back({field.in_domain(i, threshold_rad), field.vf_rad[i], cell});
         }
     }
-    std::sort(out.begin(), out.end(), [&](const Option& a, const Option& b) {
-        return std::tuple(!a.domain, -a.vf, a.cell) < std::tuple(!b.domain, -b.vf, b.cell);
-    });
     return out;
 }
 
@@ -109,19 +130,49 @@ bool covers(const CoverageRow& row, std::int32_t piece) {
                               [](const Seen& a, const Seen& b) { return a.piece < b.piece; });
 }
 
-// The first good cell, tried by real views; -1 when there is none.
+// The first good cell, tried by real views; -1 when there is none. Inside the domain first, and
+// there first those that see every point of the piece, which are nearly certain.
 std::int64_t best_cell(const TableJob& job, const Scene& scene, const FieldWindow& field,
                        double threshold_rad, std::int32_t piece) {
-    std::vector<Option> options = options_for(job, scene, field, threshold_rad, piece);
-    // Cells that see every sample point are nearly certain; look at those first.
-    std::stable_partition(options.begin(), options.end(),
-                          [](const Option& o) { return o.seen == samples; });
-    std::stable_partition(options.begin(), options.end(), [](const Option& o) { return o.domain; });
-    for (std::size_t i = 0; i < std::min(options.size(), tests_most); ++i) {
-        const Vec2d eye = job.layout().grid.centre(options[i].cell);
-        if (covers(job.scenes.look(eye).row, scene.site_piece(piece))) return options[i].cell;
+    const PieceInSight in_sight(job, scene, piece);
+    const Grid& grid = job.layout().grid;
+    std::size_t tests = 0;
+    const auto covers_it = [&](std::int64_t cell) {
+        ++tests;
+        return covers(job.scenes.look(grid.centre(cell)).row, scene.site_piece(piece));
+    };
+    // Most cells are never asked whether they see the piece: a heap gives the best one by one.
+    const auto worse = [](const Option& a, const Option& b) { return b < a; };
+    std::vector<Option> open = in_sight.options(field, threshold_rad);
+    std::make_heap(open.begin(), open.end(), worse);
+    std::vector<std::int64_t> partly;
+    const auto best_of_partly = [&]() -> std::int64_t {
+        for (const std::int64_t cell : partly) {
+            if (tests >= tests_most) break;
+            if (covers_it(cell)) return cell;
+        }
+        partly.clear();
+        return -1;
+    };
+    bool domain = true;
+    while (!open.empty() && tests < tests_most) {
+        std::pop_heap(open.begin(), open.end(), worse);
+        const Option o = open.back();
+        open.pop_back();
+        if (domain && !o.domain) {
+            domain = false;
+            if (const std::int64_t cell = best_of_partly(); cell >= 0) return cell;
+            if (tests >= tests_most) return -1;
+        }
+        const int seen = in_sight.seen_from(grid.centre(o.cell) - scene.origin());
+        if (seen == 0) continue;
+        if (seen < samples) {
+            partly.push_back(o.cell);
+        } else if (covers_it(o.cell)) {
+            return o.cell;
+        }
     }
-    return -1;
+    return best_of_partly();
 }
 
 // A piece that nothing covers yet, in the numbering of its patch's scene.

@@ -62,6 +62,19 @@ TEST(Planner, ReasonsForBeingUncoverableAreKept) {
     EXPECT_EQ(plan_of(h, refined).pieces[5], PieceStatus::off_candidates);
 }
 
+// Tables say of a piece that no cell sees it, and the pool found a cell that does: a station covers
+// it all the same, and verify asks for one.
+TEST(Planner, WhatOnlyThePoolSeesIsCovered) {
+    HandMade h = hand_made({1, 2, 4, 7}, {{0}, {1}, {1, 2}, {3}}, {{0, 1, 0.5}, {1, 2, 0.6}});
+    h.candidates[2].kind = h.candidates[3].kind = CandidateKind::pool;
+    h.status[2] = h.status[3] = PieceStatus::no_viewpoint;
+    for (const PlanOptions& options : {greedy_alone, refined, with_loops}) {
+        const Plan plan = plan_of(h, options);
+        EXPECT_EQ(plan.pieces[2], PieceStatus::covered);
+        EXPECT_EQ(plan.pieces[3], PieceStatus::no_viewpoint) << "off all networks";
+    }
+}
+
 TEST(Planner, LengthsAreCountedOnce) {
     const Plan plan = plan_of(two_parts(), greedy_alone);
     ASSERT_EQ(plan.stations.size(), 4U);
