@@ -13,7 +13,7 @@ VFPLAN := build/$(PRESET)/vfplan
 SOURCES = $(shell find kernels io engine tests bench -name '*.cpp' -o -name '*.h' | LC_ALL=C sort)
 
 .PHONY: help setup build configure program run test fuzz golden random-sites random-networks kills tampered limits bench-build bench bench-check bench-counts plans \
-        scaling area check-format format tidy clean
+        scaling area hard-scenes check-format format tidy clean
 
 help:  ## this list
 	@sed -nE 's/^([a-z-]+):.*  ## (.*)/\1|\2/p' Makefile | \
@@ -85,6 +85,9 @@ scaling: bench-build  ## threads, crops, city windows: runs/scaling/summary.md, 
 
 area: program  ## windows of a city and a county: memory and time by stage (a quarter of an hour)
 	@bench/area.py --program $(VFPLAN)
+
+hard-scenes: program  ## a star, a comb, pillars, a long outline, a long line: time, memory, verify (half an hour)
+	@bench/hard_scenes.py --program $(VFPLAN)
 
 plans: program  ## Algorithm 1, refined and certified plans and bounds on every site (two hours)
 	@bench/plans.py --program $(VFPLAN)

@@ -73,6 +73,19 @@ std::vector<std::int64_t> Layout::tiles_in(const Window& window) const {
     return squares_in(window, tile_columns(), tile_cells);
 }
 
+double Layout::largest_window_cells(double margin) const {
+    // Of the tile in the middle.
+    const auto along = [&](std::int32_t cells, std::int32_t tiles) {
+        const double begin = std::floor((tiles - 1) / 2.0) * tile_cells;
+        return std::min<double>(cells, begin + tile_cells + margin) - std::max(0.0, begin - margin);
+    };
+    return along(grid.nx, tile_columns()) * along(grid.ny, tile_rows());
+}
+
+double Layout::largest_patch_cells() const {
+    return static_cast<double>(std::min(patch_cells, grid.nx)) * std::min(patch_cells, grid.ny);
+}
+
 Layout make_layout(const Grid& grid, double range_max_m, std::int64_t tile_cells) {
     constexpr double step = 32;  // cells: the windows that threads take
     const double wanted = std::ceil(6 * range_max_m / grid.cell_m / step) * step;

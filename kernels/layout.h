@@ -42,6 +42,9 @@ struct Layout {
     std::int64_t cell_at(const Vec2d& point) const;
     // South-west corner of a patch: the origin of its frame.
     Vec2d patch_origin(std::int64_t patch) const;
+    // Cells of the largest window of a tile with so many around it, and of the largest patch.
+    double largest_window_cells(double margin) const;
+    double largest_patch_cells() const;
     // Patches and tiles that a window touches, ascending.
     std::vector<std::int64_t> patches_in(const Window& window) const;
     std::vector<std::int64_t> tiles_in(const Window& window) const;

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <sstream>
 #include <string_view>
 
@@ -20,6 +21,8 @@
 #include "engine/job/verify.h"
 #include "engine/runtime/ending.h"
 #include "engine/runtime/launch.h"
+#include "engine/runtime/memory.h"
+#include "engine/runtime/parallel.h"
 #include "engine/runtime/ranks.h"
 #include "engine/runtime/stop.h"
 #include "io/files.h"
@@ -62,6 +65,8 @@ struct Shared {
     bool quiet = false;
     bool fresh = false;
     bool dry_run = false;
+    double memory_bytes = 0;
+    double time_s = 0;
 };
 
 void add_sets(CLI::App& app, Shared& s, const char* which) {
@@ -72,6 +77,22 @@ void add_common(CLI::App& app, Shared& s) {
     app.add_option("--threads", s.threads, "Threads; default: what the machine grants")
         ->check(CLI::Range(1, 4096));
     app.add_flag("-q,--quiet", s.quiet, "No progress, no summary");
+}
+
+void add_memory(CLI::App& app, Shared& s) {
+    app.add_option("--memory", s.memory_bytes,
+                   "Most memory of each process: 500M, 2G. It works on less at once to keep within "
+                   "it, and ends with words where it cannot; default: what there is")
+        ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{
+            {"k", 0x1p10}, {"m", 0x1p20}, {"g", 0x1p30}, {"t", 0x1p40}}))
+        ->check([](const std::string& bytes) -> std::string {
+            return std::stod(bytes) < 0x1p26 ? "at least 64M, which the program alone takes" : "";
+        })
+        ->type_name("SIZE");
+}
+
+void hold_to_memory(const Shared& s) {
+    if (s.memory_bytes > 0) limit_memory(s.memory_bytes, Threads(s.threads).count());
 }
 
 void add_job_and_out(CLI::App& app, Shared& s) {
@@ -88,6 +109,12 @@ void add_job(CLI::App& app, Shared& s) {
     app.add_flag("--fresh", s.fresh, "Make everything again; default: go on where a run stopped");
     app.add_flag("--dry-run", s.dry_run,
                  "Check the job and the site, print cells, memory, disk and time");
+    add_memory(app, s);
+    app.add_option("--time", s.time_s,
+                   "Refuse a job that takes longer, by the estimate of --dry-run: 90s, 10m, 2h")
+        ->transform(CLI::AsNumberWithUnit(
+            std::map<std::string, double>{{"s", 1}, {"m", 60}, {"min", 60}, {"h", 3600}}))
+        ->type_name("TIME");
     add_common(app, s);
 }
 
@@ -141,6 +168,9 @@ int run_or_precompute(const Shared& s, bool plan, const Ranks& ranks) {
     options.fresh = s.fresh;
     options.dry_run = s.dry_run;
     options.plan = plan;
+    options.memory_bytes = s.memory_bytes;
+    options.time_s = s.time_s;
+    hold_to_memory(s);
     if (const std::string warning = binding_warning(); !warning.empty()) {
         progress.warn(warning);
     }
@@ -270,6 +300,7 @@ int dispatch(int argc, char** argv, const Ranks& ranks) {
                      "Puts the plan into a folder of its own, with the tables; DIR stays as it is");
     add_sets(*plan, s,
              "Replaces plan.* but points and areas, overlap.* (no higher threshold) or output.*");
+    add_memory(*plan, s);
     add_common(*plan, s);
     CLI::App* check = app.add_subcommand(
         "verify", "Looks again from every station with the exact kernel; says yes or no");
@@ -347,6 +378,7 @@ int dispatch(int argc, char** argv, const Ranks& ranks) {
         put(parameters_markdown());
         return 0;
     }
+    hold_to_memory(s);
     Progress progress(s.quiet);
     const std::string text = plan_again(s.dir, s.out, s.sets, s.threads, progress);
     if (!s.quiet) say(text);

@@ -28,9 +28,17 @@ struct Estimate {
 
 // Reads the site and makes the tables of a part of it (engine/job/sample.h), in a folder for
 // temporary files that is gone afterwards. Beyond reading the site that takes a few seconds of
-// processor time, whatever the job. Warns of what the machine has not enough of. Throws as a run
+// processor time, whatever the job. Throws as a run
 // would, before it begins to work; Stopped within a second or two of a signal.
 Estimate estimate(const Config& config, const JobOptions& options, Progress& progress);
+
+// Warns of what the machine, or the disk under `out`, has not enough of.
+void warn_of_shortage(const Estimate& estimate, const std::filesystem::path& out,
+                      Progress& progress);
+
+// Throws UsageError when the job takes more than twice the memory that `options` grant, or more
+// than the time, and says what to change.
+void check_estimate(const Estimate& estimate, const JobOptions& options, const Threads& threads);
 
 std::string estimate_text(const Estimate& estimate, const Config& config, const Threads& threads);
 

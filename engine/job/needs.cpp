@@ -19,18 +19,6 @@ std::string at_least(double x) {
     return fmt::format("{:.2g}", std::ceil(x / digit) * digit);
 }
 
-// Cells of the tile in the middle with so many around it, as far as the grid goes.
-double window_cells(const Layout& layout, double margin) {
-    const auto along = [&](std::int32_t cells, std::int32_t tiles) {
-        const double tile = layout.tile_cells;
-        const double from = std::max(0.0, std::floor((tiles - 1) / 2.0) * tile - margin);
-        const double to =
-            std::min<double>(cells, (std::floor((tiles - 1) / 2.0) + 1) * tile + margin);
-        return to - from;
-    };
-    return along(layout.grid.nx, layout.tile_columns()) * along(layout.grid.ny, layout.tile_rows());
-}
-
 }  // namespace
 
 void check_memory(const GroundOptions& o, const Layout& layout, std::int64_t pieces, bool plan,
@@ -53,8 +41,7 @@ void check_memory(const GroundOptions& o, const Layout& layout, std::int64_t pie
                  fmt::format("take field.cell_m = {} or more, or site.crop_m", side_for(bits)));
 
     // The field of a patch: a float and a byte.
-    const double patch = static_cast<double>(std::min(layout.patch_cells, layout.grid.nx)) *
-                         std::min(layout.patch_cells, layout.grid.ny);
+    const double patch = layout.largest_patch_cells();
     refuse_above(
         5 * patch,
         fmt::format("scanner.range_max_m = {}: the {:.3g} cells of {} m within six ranges",
@@ -62,7 +49,7 @@ void check_memory(const GroundOptions& o, const Layout& layout, std::int64_t pie
         fmt::format("take field.cell_m = {} or more, or a shorter range", side_for(5 * patch)));
 
     // A tile with a range around it, while its skeleton is found: field, domain, distance, state.
-    const double window = window_cells(layout, std::ceil(o.range_max_m / o.cell_m) + 48);
+    const double window = layout.largest_window_cells(std::ceil(o.range_max_m / o.cell_m) + 48);
     refuse_above(
         18 * window,
         fmt::format("field.tile_cells = {}: a tile of {:.3g} cells with scanner.range_max_m = {} "

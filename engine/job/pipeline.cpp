@@ -183,6 +183,12 @@ void check_overlap(const Config& tables, const Config& plan, const std::filesyst
                  : fmt::format("plan takes other ratios here, not {}", name_of(rule(plan).ratio))));
 }
 
+bool has_begun(const RunDir& dir, bool fresh) {
+    std::error_code ignored;
+    return !fresh && (std::filesystem::exists(dir.path() / "work" / "site.h5", ignored) ||
+                      std::filesystem::exists(dir.file(coverage_name), ignored));
+}
+
 }  // namespace
 
 std::string run_job(const Config& config, const JobOptions& options, const Ranks& ranks,
@@ -194,9 +200,20 @@ std::string run_job(const Config& config, const JobOptions& options, const Ranks
     const JobKeys keys = job_keys(config, input.sha256());
     std::string text;
     if (options.dry_run) {
-        ranks.lead(
-            [&] { text = estimate_text(estimate(config, options, progress), config, threads); });
+        ranks.lead([&] {
+            const Estimate found = estimate(config, options, progress);
+            check_estimate(found, options, threads);
+            warn_of_shortage(found, options.out, progress);
+            text = estimate_text(found, config, threads);
+        });
         return text;
+    }
+    if (options.memory_bytes > 0 || options.time_s > 0) {
+        ranks.lead([&] {
+            if (has_begun(dir, options.fresh)) return;  // it was let through then
+            Progress quiet(true, true);
+            check_estimate(estimate(config, options, quiet), options, threads);
+        });
     }
     run_in_folder(
         dir, config, keys, options.fresh, ranks,

@@ -17,6 +17,9 @@ struct JobOptions {
     bool fresh = false;    // make everything again, whatever the folder holds
     bool dry_run = false;  // validate and estimate, write nothing
     bool plan = true;      // false: stop behind the tables
+    // Above 0: a job that takes more, by its estimate, is refused before it begins.
+    double memory_bytes = 0;  // of each process; twice that, as the estimate goes
+    double time_s = 0;
 };
 
 // run, precompute and --dry-run, by all ranks together. Returns what a person wants to read, on the

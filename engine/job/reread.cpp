@@ -82,8 +82,8 @@ private:
         out_.text.push_back((good ? "yes  " : "NO   ") + text);
     }
 
-    // Lines that run nearer to each other than a few snaps are one or two, as rounding has it: where
-    // many meet in a point there is much of that. What a coarser snap changes tells how much.
+    // Lines that run nearer to each other than a few snaps are one or two, as rounding has it:
+    // where many meet in a point there is much of that. What a coarser snap changes tells how much.
     double rounding_m() const {
         const planar::Drawn coarser(parts_, 2 * options_.snap_m);
         return 2 * (std::abs(coarser.border_m() - drawn_->border_m()) +

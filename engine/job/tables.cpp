@@ -99,12 +99,11 @@ void make_coverage_table(const TableJob& job, const SiteStore& site, const Field
 
     const FoundTiles joints = make_joints(job, ridges, pieces);
     const FoundTiles splits = make_splits(job, ridges, joints, of_user, rule, pieces);
-    const Rescued rescued =
+    const CandidateList rescued =
         make_rescues(job, site, field, joints, splits, of_user, options.threshold_rad);
-    const Components components = make_components(job, rescued.candidates, rule);
-    const std::vector<ShortestPath> paths = make_paths(job, field, rescued.candidates, components);
-    const CandidateList connected =
-        make_connectors(job, rescued.candidates, components, paths, of_user, rule);
+    const Components components = make_components(job, rescued, rule);
+    const std::vector<ShortestPath> paths = make_paths(job, field, rescued, components);
+    const CandidateList connected = make_connectors(job, rescued, components, paths, of_user, rule);
     const Joins joins = make_joins(job, site, field, connected, of_user, rule);
     const std::vector<std::filesystem::path> blocks =
         make_coverage(job, field, "coverage", joins.candidates);
@@ -113,9 +112,9 @@ void make_coverage_table(const TableJob& job, const SiteStore& site, const Field
                         {{"joints", ridges.joints()},
                          {"ridges", ridges.ridges()},
                          {"arcs_short_of_overlap", splits.short_of_overlap()},
-                         {"rescued_pieces", rescued.pieces},
+                         {"rescued_pieces", rescued.counts().rescued_pieces},
                          {"components_before_connectors", components.count()},
-                         {"components", joins.candidates.components()}},
+                         {"components", joins.candidates.counts().components}},
                         joins.apart);
 }
 

@@ -129,7 +129,7 @@ CandidateList make_connectors(const TableJob& job, const CandidateList& candidat
             if (c.cell >= 0 && std::binary_search(taken.begin(), taken.end(), c.cell)) continue;
             all.push_back(c);
         }
-        write_candidate_list(path, job.key, job.layout(), std::move(all), count);
+        write_candidate_list(path, job.key, job.layout(), std::move(all), {count});
     });
     return {names.whole(), job.layout(), of_user};
 }

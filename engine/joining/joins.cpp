@@ -9,7 +9,7 @@ namespace vfplan {
 Joins make_joins(const TableJob& job, const SiteStore& site, const FieldTiles& field,
                  const CandidateList& candidates, const std::vector<Candidate>& of_user,
                  const OverlapRule& rule) {
-    if (candidates.components() < 2) return {candidates, {}};
+    if (candidates.counts().components < 2) return {candidates, {}};
     const Components components = make_components(job, candidates, rule, "-joined");
     Leader leader(job, site, candidates, components, rule);
     int round = 0;
@@ -28,7 +28,7 @@ Joins make_joins(const TableJob& job, const SiteStore& site, const FieldTiles& f
     make_one(job, names.phase(), names.whole(), [&](const std::filesystem::path& path) {
         std::int64_t count = 0;
         std::vector<Candidate> all = leader.all_candidates(round, count);
-        write_candidate_list(path, job.key, job.layout(), std::move(all), count);
+        write_candidate_list(path, job.key, job.layout(), std::move(all), {count});
     });
     CandidateList list{names.whole(), job.layout(), of_user};
     const std::filesystem::path apart = names.whole().parent_path() / "apart.h5";

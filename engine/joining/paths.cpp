@@ -36,20 +36,22 @@ std::vector<ShortestPath> shortest_few(std::vector<ShortestPath> paths) {
 double reach_cells(const TableJob& job) {
     return paths_reach_ranges * job.scenes.options().scanner.range_max_m / job.layout().grid.cell_m;
 }
-std::int32_t margin_cells(const TableJob& job) {
-    return static_cast<std::int32_t>(std::ceil(reach_cells(job))) + 1;
+std::int32_t margin_of(double reach_cells) {
+    return static_cast<std::int32_t>(std::ceil(reach_cells)) + 1;
 }
 
 // Around each block is looked as far as a path may reach: half of that wide, it is not much work.
-Layout path_blocks(const TableJob& job) { return in_blocks(job.layout(), margin_cells(job) / 2); }
+Layout path_blocks(const Layout& layout, double reach_cells) {
+    return in_blocks(layout, margin_of(reach_cells) / 2);
+}
 
 // The paths that meet in a block's cells.
 std::vector<ShortestPath> paths_of_block(const TableJob& job, const FieldTiles& tiles,
                                          const CandidateList& candidates,
                                          const Components& components, std::int64_t block) {
-    const Layout layout = path_blocks(job);
+    const Layout layout = path_blocks(job.layout(), reach_cells(job));
     const Window core = layout.tile_window(block);
-    const Window around = core.grown(margin_cells(job), layout.grid);
+    const Window around = core.grown(margin_of(reach_cells(job)), layout.grid);
     const CandidateList::Part list = candidates.in(around);
     const std::vector<std::int32_t> component = components.of(list.number);
     const auto same = [&](std::int32_t c) { return c == component.front(); };
@@ -117,15 +119,24 @@ std::vector<ShortestPath> paths_of_block(const TableJob& job, const FieldTiles& 
 
 }  // namespace
 
+double paths_task_bytes(const Layout& layout, double range_cells) {
+    constexpr double cell_bytes = 20;  // field, who sees anything, what is closed, the flood
+    const double reach = paths_reach_ranges * range_cells;
+    return cell_bytes * path_blocks(layout, reach).largest_window_cells(margin_of(reach));
+}
+
 std::vector<ShortestPath> make_paths(const TableJob& job, const FieldTiles& field,
                                      const CandidateList& candidates,
                                      const Components& components) {
     if (components.count() < 2) return {};
-    const std::int64_t blocks = path_blocks(job).tiles();
+    const std::int64_t blocks = path_blocks(job.layout(), reach_cells(job)).tiles();
     const ShardNames names = job.passing("paths");
-    make_shards(job, names, blocks, [&](std::int64_t block, const std::filesystem::path& path) {
-        write_paths(path, job.key, paths_of_block(job, field, candidates, components, block));
-    });
+    make_shards(
+        job, names, blocks,
+        [&](std::int64_t block, const std::filesystem::path& path) {
+            write_paths(path, job.key, paths_of_block(job, field, candidates, components, block));
+        },
+        paths_task_bytes(job.layout(), job.range_cells()));
     make_one(job, names.phase(), names.whole(), [&](const std::filesystem::path& path) {
         std::vector<ShortestPath> all;
         for (std::int64_t block = 0; block < blocks; ++block) {

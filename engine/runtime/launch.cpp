@@ -4,6 +4,7 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace vfplan {
@@ -19,11 +20,15 @@ int number_in(const char* variable, int otherwise) {
 Launch launch() {
     Launch l;
     if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr) {
-        return {number_in("OMPI_COMM_WORLD_SIZE", 1), number_in("OMPI_COMM_WORLD_RANK", 0), true};
+        return {number_in("OMPI_COMM_WORLD_SIZE", 1), number_in("OMPI_COMM_WORLD_RANK", 0), true,
+                std::max(1, number_in("OMPI_COMM_WORLD_LOCAL_SIZE", 1))};
     }
     if (std::getenv("PMI_SIZE") != nullptr) {
-        return {number_in("PMI_SIZE", 1), number_in("PMI_RANK", 0), true};
+        return {number_in("PMI_SIZE", 1), number_in("PMI_RANK", 0), true,
+                std::max(1, number_in("MPI_LOCALNRANKS", 1))};
     }
+    // "2(x3)": two on each of three machines.
+    l.here = std::max(1, number_in("SLURM_STEP_TASKS_PER_NODE", 1));
     l.common = std::getenv("PMIX_RANK") != nullptr;
     l.count = number_in("SLURM_STEP_NUM_TASKS", l.common ? Launch::unknown : 1);
     l.rank = number_in("SLURM_PROCID", number_in("PMIX_RANK", 0));

@@ -10,6 +10,7 @@ struct Launch {
     int count = 1;  // or unknown
     int rank = 0;
     bool common = false;  // the processes were told how to find each other
+    int here = 1;         // of them on this machine, as far as the launcher says
 };
 
 // From the environment. Slurm's variables count inside srun only, which sets SLURM_STEP_NUM_TASKS;

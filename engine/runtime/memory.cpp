@@ -2,13 +2,20 @@
 
 #include <sys/resource.h>
 #include <sys/sysinfo.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "engine/runtime/launch.h"
+
 namespace vfplan {
 namespace {
+
+std::atomic<double> given_bytes{0};  // by limit_memory()
 
 void lower(MemoryLimit& limit, double bytes, const char* whose) {
     if (bytes > 0 && bytes < limit.bytes) limit = {bytes, whose};
@@ -62,7 +69,39 @@ MemoryLimit memory_limit() {
             lower(limit, static_cast<double>(r.rlim_cur), whose);
         }
     }
+    lower(limit, given_bytes, "--memory grants");
     return limit;
+}
+
+void limit_memory(double bytes, int threads) {
+    given_bytes = bytes;
+    rlimit stack{};
+    constexpr rlim_t usual = rlim_t{8} << 20;
+    if (getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur == RLIM_INFINITY) {
+        stack.rlim_cur = usual;
+    }
+    rlimit data{};
+    if (getrlimit(RLIMIT_DATA, &data) != 0) return;
+    const auto wanted = static_cast<rlim_t>(bytes) + stack.rlim_cur * static_cast<rlim_t>(threads);
+    data.rlim_cur = std::min(data.rlim_cur, wanted);
+    setrlimit(RLIMIT_DATA, &data);
+}
+
+double memory_left() {
+    const MemoryLimit limit = memory_limit();
+    // --memory is each process's own.
+    const int sharing = given_bytes > 0 ? 1 : launch().here;
+    std::ifstream in("/proc/self/statm");
+    double pages = 0;
+    double resident = 0;
+    in >> pages >> resident;
+    const auto page = static_cast<double>(sysconf(_SC_PAGESIZE));
+    return std::max(0.0, limit.bytes / sharing - resident * page);
+}
+
+int tasks_at_once(double task_bytes, int threads) {
+    if (task_bytes <= 0) return threads;
+    return static_cast<int>(std::clamp(memory_left() / task_bytes, 1.0, 1.0 * threads));
 }
 
 }  // namespace vfplan

@@ -68,10 +68,11 @@ int Ranks::count() const { return impl_->mpi ? impl_->mpi->count() : 1; }
 std::string Ranks::built_with() { return Mpi::name(); }
 
 void Ranks::share(const Threads& threads, std::int64_t n,
-                  const std::function<void(std::int64_t)>& work) const {
+                  const std::function<void(std::int64_t)>& work, int at_once) const {
     Round round(impl_->mpi.get(), n);
     const Verdict verdict = round.run([&] {
-        const std::int64_t lanes = std::min<std::int64_t>(threads.count(), n);
+        const int most = at_once > 0 ? std::min(at_once, threads.count()) : threads.count();
+        const std::int64_t lanes = std::min<std::int64_t>(most, n);
         threads.for_each(lanes, 1, [&](std::int64_t from, std::int64_t to) {
             for (std::int64_t lane = from; lane < to; ++lane) round.lane(work);
         });

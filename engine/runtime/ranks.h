@@ -38,10 +38,11 @@ public:
     bool leader() const { return rank() == 0; }
 
     // Calls work(task) once for each task of [0, n), over all ranks together, on each of them in
-    // threads.count() threads at most. Tasks are handed out in ascending order to who asks first.
-    // Tasks may use `threads` for loops of their own.
+    // threads.count() threads at most, `at_once` of them at a time where that is above 0. Tasks are
+    // handed out in ascending order to who asks first. Tasks may use `threads` for loops of their
+    // own.
     void share(const Threads& threads, std::int64_t n,
-               const std::function<void(std::int64_t task)>& work) const;
+               const std::function<void(std::int64_t task)>& work, int at_once = 0) const;
 
     // Calls work() on the leader; the others wait for it.
     void lead(const std::function<void()>& work) const;

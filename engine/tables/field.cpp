@@ -93,25 +93,32 @@ Raster<std::uint8_t> closed_of_tile(const TableJob& job, const SiteStore& site,
 
 }  // namespace
 
+double field_task_bytes(const Layout& layout) {
+    // A float and a byte of a patch and of the tile, and what of it is closed.
+    return 5 * layout.largest_patch_cells() + 8 * layout.largest_window_cells(0);
+}
+
 FieldTiles make_field(const TableJob& job, const SiteStore& site) {
     const Layout& layout = job.layout();
     const ShardNames names = job.kept("field", fmt::format("-{}", layout.tile_cells));
-    make_shards(job, names, layout.tiles(),
-                [&](std::int64_t number, const std::filesystem::path& path) {
-                    FieldTile tile;
-                    tile.window = layout.tile_window(number);
-                    tile.vf_rad.resize(idx(tile.window.size()));
-                    for (const std::int64_t patch : layout.patches_in(tile.window)) {
-                        tile.counts += field_of_patch(job, site, patch, tile.window, tile.vf_rad);
-                    }
-                    // How many cells share a step depends on the processor, and equal jobs give
-                    // equal bytes.
-                    if (job.scenes.options().kernel == KernelKind::exact) {
-                        tile.counts = {tile.counts.cells, 0, 0, 0};
-                    }
-                    tile.closed = closed_of_tile(job, site, tile.window);
-                    write_field_tile(path, job.key, tile);
-                });
+    make_shards(
+        job, names, layout.tiles(),
+        [&](std::int64_t number, const std::filesystem::path& path) {
+            FieldTile tile;
+            tile.window = layout.tile_window(number);
+            tile.vf_rad.resize(idx(tile.window.size()));
+            for (const std::int64_t patch : layout.patches_in(tile.window)) {
+                tile.counts += field_of_patch(job, site, patch, tile.window, tile.vf_rad);
+            }
+            // How many cells share a step depends on the processor, and equal jobs give
+            // equal bytes.
+            if (job.scenes.options().kernel == KernelKind::exact) {
+                tile.counts = {tile.counts.cells, 0, 0, 0};
+            }
+            tile.closed = closed_of_tile(job, site, tile.window);
+            write_field_tile(path, job.key, tile);
+        },
+        field_task_bytes(layout));
     return {layout, names};
 }
 

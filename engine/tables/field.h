@@ -7,6 +7,9 @@
 
 namespace vfplan {
 
+// What a tile holds while its field is made.
+double field_task_bytes(const Layout& layout);
+
 // Phase "field": shards/field-SIDE-NUMBER.h5.
 FieldTiles make_field(const TableJob& job, const SiteStore& site);
 

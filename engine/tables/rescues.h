@@ -12,16 +12,11 @@
 
 namespace vfplan {
 
-struct Rescued {
-    CandidateList candidates;  // all that there are by then
-    std::int64_t pieces = 0;   // for which a cell was found
-};
-
 // Phase "rescues": for every piece that neither joints nor splits cover the best cell that sees
-// enough of it, in the order of docs/method.md 4; `threshold_rad` bounds the domain:
-// work/.../rescues-NUMBER.h5. Then the list of all candidates, of rescue cells the fewest in the
-// order of pieces: work/.../rescues.h5.
-Rescued make_rescues(const TableJob& job, const SiteStore& site, const FieldTiles& field,
+// enough of it, in the order of docs/method.md 4, unless the cell of a piece before covers it;
+// `threshold_rad` bounds the domain: work/.../rescues-NUMBER.h5. Then the list of all candidates
+// that there are by then: work/.../rescues.h5.
+CandidateList make_rescues(const TableJob& job, const SiteStore& site, const FieldTiles& field,
                      const FoundTiles& joints, const FoundTiles& splits,
                      const std::vector<Candidate>& of_user, double threshold_rad);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/runtime/memory.h"
 #include "kernels/index.h"
 
 namespace vfplan {
@@ -100,6 +101,13 @@ void Scene::take_rays_enough(const Raster<std::uint8_t>& standable) const {
     }
 }
 
+double Scene::bytes() const {
+    constexpr double of_wall = 800;  // with its share of the triangulation
+    constexpr double of_piece = 12;
+    return of_wall * static_cast<double>(walls_.size()) +
+           of_piece * static_cast<double>(site_piece_.size());
+}
+
 View Scene::observed(const Vec2d& here) const {
     View hits;
     View seen;
@@ -155,7 +163,21 @@ PatchSite patch_site(const std::vector<Wall>& walls, const Pieces& pieces, const
 
 Scenes::Scenes(const Layout& layout, std::function<PatchSite(std::int64_t)> site,
                const SceneOptions& options, int kept)
-    : layout_(layout), site_(std::move(site)), options_(options), kept_(idx(kept)) {}
+    : layout_(layout),
+      site_(std::move(site)),
+      options_(options),
+      kept_(idx(kept)),
+      bytes_most_(memory_left() / 4) {}
+
+// Who holds a scene that goes may go on with it.
+void Scenes::make_room() {
+    while (entries_.size() > kept_ || (bytes_ > bytes_most_ && entries_.size() > 1)) {
+        const auto last = entries_.find(latest_.back());
+        bytes_ -= last->second.second->bytes;
+        entries_.erase(last);
+        latest_.pop_back();
+    }
+}
 
 std::shared_ptr<const Scene> Scenes::of_patch(std::int64_t patch) {
     std::shared_ptr<Entry> entry;
@@ -168,10 +190,7 @@ std::shared_ptr<const Scene> Scenes::of_patch(std::int64_t patch) {
             latest_.push_front(patch);
             entry = std::make_shared<Entry>();
             entries_.emplace(patch, std::pair(latest_.begin(), entry));
-            if (entries_.size() > kept_) {  // who holds it may go on with it
-                entries_.erase(latest_.back());
-                latest_.pop_back();
-            }
+            make_room();
         }
     }
     const std::lock_guard lock(entry->making);
@@ -179,6 +198,13 @@ std::shared_ptr<const Scene> Scenes::of_patch(std::int64_t patch) {
         Threads::apart([&] {
             entry->scene = std::make_shared<const Scene>(layout_, patch, site_(patch), options_);
         });
+        const std::lock_guard among_others(guard_);
+        const auto found = entries_.find(patch);
+        if (found != entries_.end() && found->second.second == entry) {
+            entry->bytes = entry->scene->bytes();
+            bytes_ += entry->bytes;
+            make_room();
+        }
     }
     return entry->scene;
 }

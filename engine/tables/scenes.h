@@ -49,6 +49,8 @@ public:
     FieldCounts field(const Window& window, const Raster<std::uint8_t>& standable,
                       Raster<float>& vf_rad) const;
 
+    double bytes() const;  // that it takes, roughly
+
     // The patch's frame, for those who ask the exact kernel themselves.
     const Vec2d& origin() const { return origin_; }
     const ViewKernel& exact() const { return *exact_; }
@@ -78,7 +80,8 @@ private:
 PatchSite patch_site(const std::vector<Wall>& walls, const Pieces& pieces, const NearWalls& near,
                      std::int64_t patch);
 
-// Scenes as they are needed; the latest are kept. Thread-safe.
+// Scenes as they are needed; the latest are kept, as far as a quarter of the memory that was left
+// holds them. Thread-safe.
 class Scenes {
 public:
     // `site`: gives the walls of a patch; called from any thread.
@@ -103,11 +106,15 @@ private:
     struct Entry {
         std::mutex making;
         std::shared_ptr<const Scene> scene;
+        double bytes = 0;  // of the scene, when it is made; under guard_
     };
+    void make_room();
     Layout layout_;
     std::function<PatchSite(std::int64_t)> site_;
     SceneOptions options_;
     std::size_t kept_;
+    double bytes_most_;
+    double bytes_ = 0;  // of those that are kept
     std::mutex guard_;
     std::list<std::int64_t> latest_;  // patches, the last used one first
     std::unordered_map<std::int64_t,

@@ -7,6 +7,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "engine/runtime/memory.h"
 #include "engine/runtime/shell_word.h"
 #include "io/files.h"
 #include "io/tables/shard_index.h"
@@ -86,16 +87,19 @@ bool have_table(const std::filesystem::path& path, const std::string& key, Progr
 }
 
 void make_shards(const TableJob& job, const ShardNames& names, std::int64_t n,
-                 const MakeShard& make) {
+                 const MakeShard& make, double task_bytes) {
     malloc_trim(0);  // what the phase before took and gave back
     job.progress.stage(names.phase(), n);
-    job.ranks.share(job.threads, n, [&](std::int64_t task) {
-        const std::filesystem::path path = names.one(task);
-        if (!have_shard(path, job.key, job.progress)) {
-            with_replay(job, path, [&] { make(task, path); });
-        }
-        job.progress.reach(task + 1);  // tasks are handed out in order, to all ranks
-    });
+    job.ranks.share(
+        job.threads, n,
+        [&](std::int64_t task) {
+            const std::filesystem::path path = names.one(task);
+            if (!have_shard(path, job.key, job.progress)) {
+                with_replay(job, path, [&] { make(task, path); });
+            }
+            job.progress.reach(task + 1);  // tasks are handed out in order, to all ranks
+        },
+        tasks_at_once(task_bytes, job.threads.count()));
 }
 
 void make_one(const TableJob& job, const std::string& phase, const std::filesystem::path& path,

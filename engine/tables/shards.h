@@ -44,10 +44,12 @@ bool have_table(const std::filesystem::path& path, const std::string& key, Progr
 
 using MakeShard = std::function<void(std::int64_t number, const std::filesystem::path& path)>;
 
-// Makes the shards 0..n-1 of a phase that are missing, over all ranks. A barrier. What is no Error
-// leaves with the shard's name and the command that repeats the task.
+// Makes the shards 0..n-1 of a phase that are missing, over all ranks. A barrier. `task_bytes`: what
+// a task holds in memory, where that is much; no more of them are worked on at once than there is
+// room for, and the threads share these. What is no Error leaves with the shard's name and the
+// command that repeats the task.
 void make_shards(const TableJob& job, const ShardNames& names, std::int64_t n,
-                 const MakeShard& make);
+                 const MakeShard& make, double task_bytes = 0);
 
 // The same for a single file, made by the leader.
 void make_one(const TableJob& job, const std::string& phase, const std::filesystem::path& path,

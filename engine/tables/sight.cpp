@@ -37,7 +37,16 @@ void add_triangle(const std::array<Vec2d, 3>& corner, double y_m, double step_m,
                 add(a.x() + (b.x() - a.x()) * ((y - a.y()) / (b.y() - a.y())));
             }
         }
-        if (x0 <= x1) rows[static_cast<std::size_t>(n)].emplace_back(x0 - step_m, x1 + step_m);
+        if (x0 > x1) continue;
+        x0 -= step_m;
+        x1 += step_m;
+        // Triangles come in the order of their angles, so most follow the one before.
+        Sight::Stretches& row = rows[static_cast<std::size_t>(n)];
+        if (!row.empty() && x0 <= row.back().second && x1 >= row.back().first) {
+            row.back() = {std::min(x0, row.back().first), std::max(x1, row.back().second)};
+        } else {
+            row.emplace_back(x0, x1);
+        }
     }
 }
 

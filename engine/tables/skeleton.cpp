@@ -7,6 +7,9 @@
 namespace vfplan {
 namespace {
 
+// Walls are nearer than the range to every cell of the domain.
+constexpr std::int32_t beyond = 48;
+
 // The skeleton cells of a window; false when what lies around it was too little to tell.
 bool thin_window(const Threads& threads, const FieldTiles& tiles, double threshold_rad,
                  const Window& core, const Window& around, SkeletonCells& out) {
@@ -43,22 +46,27 @@ bool thin_window(const Threads& threads, const FieldTiles& tiles, double thresho
 
 }  // namespace
 
+double skeleton_task_bytes(const Layout& layout, double range_cells) {
+    constexpr double cell_bytes = 32;  // field, domain, distances, states and what waits in line
+    return cell_bytes * layout.largest_window_cells(range_cells + beyond);
+}
+
 SkeletonTiles make_skeleton(const TableJob& job, const FieldTiles& field, double threshold_rad) {
     const Layout& layout = job.layout();
     const ShardNames names = job.passing("skeleton");
-    make_shards(job, names, layout.tiles(),
-                [&](std::int64_t tile, const std::filesystem::path& path) {
-                    // Walls are nearer than the range to every cell of the domain.
-                    constexpr std::int32_t beyond = 48;
-                    const Window core = layout.tile_window(tile);
-                    SkeletonCells cells;
-                    std::int32_t margin = job.range_cells() + beyond;
-                    while (!thin_window(job.threads, field, threshold_rad, core,
-                                        core.grown(margin, layout.grid), cells)) {
-                        margin *= 2;
-                    }
-                    write_skeleton_tile(path, job.key, cells);
-                });
+    make_shards(
+        job, names, layout.tiles(),
+        [&](std::int64_t tile, const std::filesystem::path& path) {
+            const Window core = layout.tile_window(tile);
+            SkeletonCells cells;
+            std::int32_t margin = job.range_cells() + beyond;
+            while (!thin_window(job.threads, field, threshold_rad, core,
+                                core.grown(margin, layout.grid), cells)) {
+                margin *= 2;
+            }
+            write_skeleton_tile(path, job.key, cells);
+        },
+        skeleton_task_bytes(layout, job.range_cells()));
     return {layout, names};
 }
 

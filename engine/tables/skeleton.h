@@ -7,6 +7,9 @@
 
 namespace vfplan {
 
+// What a tile holds while it is thinned; `range_cells`: the scanner's range.
+double skeleton_task_bytes(const Layout& layout, double range_cells);
+
 // Phase "skeleton": work/.../skeleton-NUMBER.h5. The same cells as if the whole grid had been
 // thinned at once: a tile is thinned with so much around it that the fate of each of its cells is
 // certain.

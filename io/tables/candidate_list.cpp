@@ -12,7 +12,7 @@ namespace vfplan {
 
 void write_candidate_list(const std::filesystem::path& path, const std::string& key,
                           const Layout& layout, std::vector<Candidate> candidates,
-                          std::int64_t components) {
+                          const ListCounts& counts) {
     const auto patch_of = [&](const Candidate& c) { return layout.patch_of(layout.cell_at(c.at)); };
     std::stable_sort(candidates.begin(), candidates.end(),
                      [&](const Candidate& a, const Candidate& b) {
@@ -28,7 +28,8 @@ void write_candidate_list(const std::filesystem::path& path, const std::string& 
     for (std::size_t p = 0; p + 1 < begin.size(); ++p) begin[p + 1] += begin[p];
     constexpr std::uint64_t chunk = 1U << 12;
     h5::Writer file = begin_shard(path, key);
-    file.attribute("/", "components", components);
+    file.attribute("/", "components", counts.components);
+    file.attribute("/", "rescued_pieces", counts.rescued_pieces);
     file.write("patch_begin", begin);
     const auto write = [&](const char* name, auto example, auto&& value) {
         file.write(name, column<decltype(example)>(candidates, value), {}, chunk);
@@ -68,8 +69,10 @@ CandidateList::CandidateList(std::filesystem::path file, Layout layout,
       of_user_(std::move(of_user)),
       listed_(static_cast<std::int64_t>(h5::Reader(file_).dims("x").at(0))) {}
 
-std::int64_t CandidateList::components() const {
-    return h5::Reader(file_).whole("/", "components", 0, std::int64_t{1} << 31);
+ListCounts CandidateList::counts() const {
+    constexpr std::int64_t most = std::int64_t{1} << 31;
+    const h5::Reader file(file_);
+    return {file.whole("/", "components", 0, most), file.whole("/", "rescued_pieces", 0, most)};
 }
 
 std::vector<Candidate> CandidateList::read(std::int64_t from, std::int64_t to) const {

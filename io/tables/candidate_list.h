@@ -12,12 +12,17 @@
 
 namespace vfplan {
 
+// What is known of a list beside its candidates.
+struct ListCounts {
+    std::int64_t components = 0;      // of their overlap graph
+    std::int64_t rescued_pieces = 0;  // that rescues cover and nothing before
+};
+
 // Puts candidates in order, by patch, then row, then column, each point once (of equal ones the
-// kind that comes first). Their VF is not kept. `components`: of their overlap graph, where it is
-// known.
+// kind that comes first). Their VF is not kept.
 void write_candidate_list(const std::filesystem::path& path, const std::string& key,
                           const Layout& layout, std::vector<Candidate> candidates,
-                          std::int64_t components = 0);
+                          const ListCounts& counts = {});
 
 // A list, and behind it the user's points in the order of the job, all numbered from 0 on.
 // Thread-safe. Throws IoError.
@@ -27,7 +32,7 @@ public:
 
     std::int64_t listed() const { return listed_; }  // without the user's points
     std::int64_t size() const { return listed_ + static_cast<std::int64_t>(of_user_.size()); }
-    std::int64_t components() const;
+    ListCounts counts() const;
     // Numbers [from, to).
     std::vector<Candidate> read(std::int64_t from, std::int64_t to) const;
     // Those in the patches that a window touches, with their numbers, ascending.

@@ -68,10 +68,13 @@ void write_weights(const std::filesystem::path& path, const std::string& key,
 std::vector<std::int64_t> read_weights(const std::filesystem::path& path);
 
 // work/.../rescues-TILE.h5: pieces that nothing else covers, each with the best cell that sees
-// enough of it (-1: none does), and which such pieces each of these cells covers.
+// enough of it, and which such pieces each of these cells covers.
 struct RescueTile {
-    std::vector<std::int32_t> piece;
-    std::vector<std::int64_t> piece_cell;  // of each
+    static constexpr std::int64_t none = -1;     // no cell sees enough
+    static constexpr std::int64_t rescued = -2;  // the cell of a piece before covers it
+
+    std::vector<std::int32_t> piece;       // ascending
+    std::vector<std::int64_t> piece_cell;  // of each: a cell, none or rescued
     CellRows cells;                        // each once, ascending, with such pieces
 };
 void write_rescue_tile(const std::filesystem::path& path, const std::string& key,

@@ -121,5 +121,29 @@ TEST(DryRun, EndsAtASignal) {
     EXPECT_GT(stopped, 0);
 }
 
+// A job that takes more than is granted is refused before it begins; others keep to it.
+TEST(DryRun, MemoryAndTimeThatAreGrantedAreHeldAgainstTheEstimate) {
+    const Scratch scratch;
+    const std::string file = job(scratch, {house(0, 0), house(20, 3), house(5, 30)});
+    const auto refused = [&](const Words& grant, const std::vector<std::string>& words) {
+        for (const char* last : {"--dry-run", "--quiet"}) {
+            Words all = {"run", file, "--out", scratch / "out", last, "--set", "field.cell_m=0.02"};
+            all.insert(all.end(), grant.begin(), grant.end());
+            const Output o = vfplan_process(all);
+            EXPECT_EQ(o.code, 2) << o.err;
+            expect_words(o.err, words);
+            EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+        }
+    };
+    refused({"--memory", "64M"}, {"--memory grants 0.067", "take"});
+    refused({"--time", "0.01s"}, {"the job takes about", "--time grants 0.01 s", "take"});
+    refused({"--memory", "1K"}, {"--memory: at least 64M"});
+    refused({"--time", "4 weeks"}, {"--time", "weeks"});
+    vfplan_expect(
+        0, {"run", file, "--out", scratch / "granted", "-q", "--memory", "1.5g", "--time", "2h"});
+    vfplan_expect(0, {"run", file, "--out", scratch / "free", "-q"});
+    expect_same_run(scratch / "granted", scratch / "free");
+}
+
 }  // namespace
 }  // namespace vfplan::test

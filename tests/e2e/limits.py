@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Runs a job under ever wider limits until it is done, and looks at how it ends before.
 
-    limits.py PROGRAM [JOB.toml] [--step MB] [--only memory,threads,files,descriptors,disk]
+    limits.py PROGRAM [JOB.toml] [--step MB] [--only memory,given,threads,files,descriptors,disk]
 
  memory       ulimit -v, from where the program starts at all, in steps of MB
+ given        --memory, which may also refuse the job (2), and holds the process to it
  threads      ulimit -u, as another user (root has no such limit)
  files        ulimit -f: the largest file
  descriptors  ulimit -n
@@ -41,9 +42,9 @@ class Limits:
         self.program, self.job, self.folder = program, job, folder
         self.run("whole", None)
 
-    def run(self, out, prepare):
+    def run(self, out, prepare, more=()):
         words = [self.program, "run", self.job, "--out", os.path.join(self.folder, out), "--quiet",
-                 "--threads", "2"]
+                 "--threads", "2", *more]
         return subprocess.run(words, capture_output=True, text=True, preexec_fn=prepare, check=False)
 
     def same(self, out):
@@ -92,6 +93,28 @@ class Limits:
 
     def memory(self, step):
         self.sweep("memory", resource.RLIMIT_AS, (k * step * MB for k in range(1, 4000)), 3)
+
+    def given(self, step):
+        ends = []
+        for mb in range(64, 100_000, step):
+            shutil.rmtree(os.path.join(self.folder, "run"), ignore_errors=True)
+            done = self.run("run", limited(None, 0), ["--memory", f"{mb}M"])
+            what = f"--memory {mb}M"
+            if done.returncode == 2:
+                if "--memory grants" not in done.stderr or os.path.exists(
+                        os.path.join(self.folder, "run")):
+                    raise Trouble(f"{what}: {done.stderr}")
+            else:
+                self.judge(what, "run", done)
+                if done.returncode == 0 and not self.same("run"):
+                    raise Trouble(f"{what}: other bytes")
+            ends.append(done.returncode)
+            if ends[-2:] == [0, 0]:
+                break
+        print(f"given: {len(ends)} starts, {ends.count(2)} refused, {ends.count(4)} ended with 4, "
+              f"{ends.count(0)} with 0", flush=True)
+        if not ends.count(2) or not ends.count(0):
+            raise Trouble("given: no job was refused, or none was done")
 
     def threads(self):
         if os.geteuid() != 0:
@@ -146,15 +169,15 @@ def main():
     parser.add_argument("program")
     parser.add_argument("job", nargs="?")
     parser.add_argument("--step", type=int, default=40)
-    parser.add_argument("--only", default="memory,threads,files,descriptors,disk")
+    parser.add_argument("--only", default="memory,given,threads,files,descriptors,disk")
     args = parser.parse_args()
 
     def trial(folder):
         job = args.job or small_city(args.program, folder)
         limits = Limits(os.path.abspath(args.program), os.path.abspath(job), folder)
         for name in args.only.split(","):
-            if name == "memory":
-                limits.memory(args.step)
+            if name in ("memory", "given"):
+                getattr(limits, name)(args.step)
             else:
                 getattr(limits, name)()
 
