@@ -17,7 +17,7 @@ namespace vfplan {
 // `threshold_rad` bounds the domain: work/.../rescues-NUMBER.h5. Then the list of all candidates
 // that there are by then: work/.../rescues.h5.
 CandidateList make_rescues(const TableJob& job, const SiteStore& site, const FieldTiles& field,
-                     const FoundTiles& joints, const FoundTiles& splits,
-                     const std::vector<Candidate>& of_user, double threshold_rad);
+                           const FoundTiles& joints, const FoundTiles& splits,
+                           const std::vector<Candidate>& of_user, double threshold_rad);
 
 }  // namespace vfplan

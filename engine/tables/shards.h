@@ -44,9 +44,9 @@ bool have_table(const std::filesystem::path& path, const std::string& key, Progr
 
 using MakeShard = std::function<void(std::int64_t number, const std::filesystem::path& path)>;
 
-// Makes the shards 0..n-1 of a phase that are missing, over all ranks. A barrier. `task_bytes`: what
-// a task holds in memory, where that is much; no more of them are worked on at once than there is
-// room for, and the threads share these. What is no Error leaves with the shard's name and the
+// Makes the shards 0..n-1 of a phase that are missing, over all ranks. A barrier. `task_bytes`:
+// what a task holds in memory, where that is much; no more of them are worked on at once than there
+// is room for, and the threads share these. What is no Error leaves with the shard's name and the
 // command that repeats the task.
 void make_shards(const TableJob& job, const ShardNames& names, std::int64_t n,
                  const MakeShard& make, double task_bytes = 0);
