@@ -12,8 +12,10 @@
 #include <array>
 #include <atomic>
 #include <cctype>
+#include <cstdlib>
 #include <memory>
 #include <mutex>
+#include <new>
 
 #include "io/features/reach.h"
 #include "kernels/error.h"
@@ -122,6 +124,19 @@ constexpr std::array elsewhere = {"OGR_VRT", "WFS"};
 constexpr std::array<const char*, 8> images = {"PNG", "PNM",  "JPEG",  "BMP",
                                                "GIF", "WEBP", "GTiff", nullptr};
 
+// Throws bad_alloc where GDAL was refused memory that a sound file would have been granted: what a
+// damaged file asks for may be any number.
+void fail_on_memory(const std::string& said) {
+    const auto speaks_of = [&](const char* word) { return said.find(word) != std::string::npos; };
+    if (CPLGetLastErrorNo() != CPLE_OutOfMemory && !speaks_of("memory") && !speaks_of("alloc")) {
+        return;
+    }
+    constexpr std::size_t fair = std::size_t{256} << 20;
+    void* volatile there = std::malloc(fair);
+    if (there == nullptr) throw std::bad_alloc();
+    std::free(there);
+}
+
 }  // namespace
 
 void DatasetCloser::operator()(void* dataset) const { GDALClose(dataset); }
@@ -134,6 +149,7 @@ QuietGdal::~QuietGdal() { CPLPopErrorHandler(); }
 // Without the place in GDAL's own sources.
 std::string QuietGdal::last() {
     const std::string said = CPLGetLastErrorMsg();
+    fail_on_memory(said);
     const auto source = said.find(".cpp, ");
     if (source == std::string::npos) return said;
     const auto end = said.find_first_of(":,", source + 6);

@@ -18,7 +18,8 @@ public:
     ~QuietGdal();
     QuietGdal(const QuietGdal&) = delete;
     QuietGdal& operator=(const QuietGdal&) = delete;
-    static std::string last();  // what it said last; empty when nothing
+    // What it said last; empty when nothing. Throws bad_alloc where memory gave out.
+    static std::string last();
     static bool failed();       // it said that something went wrong
 };
 

@@ -192,6 +192,8 @@ def main():
         while sum(killer.kills.values()) < args.kills:
             killer.round(ranks[rounds % len(ranks)])
             rounds += 1
+            if rounds % 50 == 0:
+                print(f"  {sum(killer.kills.values())} ended so far", flush=True)
         for key in sorted(killer.kills):
             print("  {0:8} {1} rank(s), {2:6} {3}: {4}".format(*key, killer.kills[key]))
         print(f"{sum(killer.kills.values())} ended in {rounds} rounds; {killer.accepted} folders "

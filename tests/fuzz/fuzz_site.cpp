@@ -42,6 +42,10 @@ std::filesystem::path written(const std::filesystem::path& folder, std::string_v
         write(folder / "site.gml", bytes);
         return folder / "site.gml";
     }
+    if (begins("WKT")) {
+        write(folder / "site.csv", bytes);
+        return folder / "site.csv";
+    }
     if (begins("SQLite")) {
         write(folder / "site.gpkg", bytes);
         return folder / "site.gpkg";
