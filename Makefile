@@ -10,9 +10,14 @@ JOBS   ?= $(shell nproc)
 MINUTES ?= 1
 VFPLAN := build/$(PRESET)/vfplan
 
+# For programs of the presets asan and tsan that are not started by ctest.
+export LSAN_OPTIONS ?= suppressions=$(CURDIR)/configs/sanitizers/lsan.supp:print_suppressions=0
+export UBSAN_OPTIONS ?= print_stacktrace=1
+export TSAN_OPTIONS ?= suppressions=$(CURDIR)/configs/sanitizers/tsan.supp:second_deadlock_stack=1
+
 SOURCES = $(shell find kernels io engine tests bench -name '*.cpp' -o -name '*.h' | LC_ALL=C sort)
 
-.PHONY: help setup build configure program run test fuzz golden random-sites random-networks kills tampered limits bench-build bench bench-check bench-counts plans \
+.PHONY: help setup build configure program run test sanitized fuzz golden random-sites random-networks kills tampered limits bench-build bench bench-check bench-counts plans \
         scaling area hard-scenes check-format format tidy clean
 
 help:  ## this list
@@ -42,6 +47,12 @@ runs/town.geojson: | program
 
 test: build  ## build, then run every test
 	@ctest --preset $(PRESET) -j $(JOBS)
+
+sanitized:  ## kernels and readers under address and undefined-behaviour sanitizers (CI)
+	@configs/packages/setup.sh
+	@cmake --preset asan
+	@cmake --build --preset asan -j $(JOBS) --target test_kernels test_io
+	@ctest --preset asan -j $(JOBS) -L '^(kernels|io)$$'
 
 random-sites: build  ## 10,000 hostile little sites of each kind, read and held against their drawing
 	@VFPLAN_RANDOM_SITES=10000 build/$(PRESET)/test_io --gtest_filter='RandomSites.*'

@@ -24,19 +24,42 @@ void expect_same_field(const Path& a, const Path& b) {
     EXPECT_EQ(differ, 0);
 }
 
+// Walls from one point outwards, which only cells between them see: many are rescued, in tiles that
+// are smaller than the range.
+std::string star(const Scratch& scratch) {
+    std::string all;
+    for (int k = 0; k < 150; ++k) {
+        const double a = 2 * M_PI * k / 150;
+        const double r = 20 + k * 37 % 41;
+        all += (k > 0 ? "," : "") +
+               (R"({"type":"Feature","properties":{"class":"wall"},"geometry":{"type":)"
+                R"("LineString","coordinates":[[0,0],[)" +
+                std::to_string(r * std::cos(a)) + "," + std::to_string(r * std::sin(a)) + "]]}}");
+    }
+    return scratch.write("star.geojson",
+                         R"({"type":"FeatureCollection","units":"m","features":[)" + all + "]}");
+}
+
 class Tiles : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Tiles, SidesAndThreadsDoNotMatter) {
     const Scratch scratch;
     const std::string kind = GetParam();
     const bool city = kind == "city";
-    const std::string site = generated(scratch, kind, city ? Words{"--size-km", "0.5"} : Words{});
-    const std::string job =
-        scratch.write("job.toml", "preset = \"" + std::string(city ? "outdoor" : "indoor") +
-                                      "\"\n[site]\ninput = \"" + site +
-                                      "\"\n[field]\ncell_m = " + (city ? "1.5" : "0.05") +
-                                      "\n[scanner]\nrange_max_m = " + (city ? "25" : "3") +
-                                      "\n[output]\nformats = [\"csv\", \"geojson\"]\n");
+    const std::string site =
+        kind == "star" ? star(scratch)
+                       : generated(scratch, kind, city ? Words{"--size-km", "0.5"} : Words{});
+    const std::string job = scratch.write(
+        "job.toml", "preset = \"" + std::string(kind == "flat" ? "indoor" : "outdoor") +
+                        "\"\n[site]\ninput = \"" + site + "\"\n[field]\ncell_m = " +
+                        (city             ? "1.5"
+                         : kind == "star" ? "1"
+                                          : "0.05") +
+                        "\n[scanner]\nrange_max_m = " +
+                        (city             ? "25"
+                         : kind == "star" ? "40"
+                                          : "3") +
+                        "\n[output]\nformats = [\"csv\", \"geojson\"]\n");
     const auto run = [&](const std::string& dir, const std::string& side, const char* threads) {
         vfplan_expect(0, {"run", job, "--out", scratch / dir, "--quiet", "--threads", threads,
                           "--set", "field.tile_cells=" + side});
@@ -62,7 +85,7 @@ TEST_P(Tiles, SidesAndThreadsDoNotMatter) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sites, Tiles, ::testing::Values("city", "flat"),
+INSTANTIATE_TEST_SUITE_P(Sites, Tiles, ::testing::Values("city", "flat", "star"),
                          [](const auto& i) { return std::string(i.param); });
 
 // The tables of a run may be replanned and verified whatever the tiles of the job at hand.
