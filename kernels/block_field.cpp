@@ -234,8 +234,10 @@ void BlockField::between_runs(std::uint32_t eye, std::int32_t ray, const Run& ru
     } else if (after.observed && cross(a, after.from) > 0) {
         gaps_.push_back({eye, ray, false, true, run.wall, a, after.from});
     } else {
+        const std::int32_t wall = before.observed ? next.wall : run.wall;
+        if (wall < 0) return;  // open, but for rounding: the other wall reaches all across
         // Something that is not observed stands in front: it begins, or ends, in between.
-        const Ends ends(walls_[idx(before.observed ? next.wall : run.wall)], eyes_[eye]);
+        const Ends ends(walls_[idx(wall)], eyes_[eye]);
         const Vec2d& border = before.observed ? ends.begin : ends.end;
         if (!between(a, border, b)) {
             unobserved_rad_[eye] += step_rad_ / 2;

@@ -167,6 +167,9 @@ class Killer:
             if not self.end_it(words, ranks, self.rng.uniform(0.02, 1.02) * most):
                 break
             self.judge(name)
+            # plan --out writes over no finished plan; the signal may have come after its end.
+            if kind == "out" and os.path.exists(os.path.join(self.at(name), "summary.json")):
+                break
         # plan --out writes over no finished plan: it came to its end all the same.
         if kind != "out" or not os.path.exists(os.path.join(self.at(name), "summary.json")):
             self.must(words, ranks)
