@@ -20,7 +20,7 @@ public:
     QuietGdal& operator=(const QuietGdal&) = delete;
     // What it said last; empty when nothing. Throws bad_alloc where memory gave out.
     static std::string last();
-    static bool failed();       // it said that something went wrong
+    static bool failed();  // it said that something went wrong
 };
 
 // Registers the drivers, and closes the network, once.
