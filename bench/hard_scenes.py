@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Sites that are as hard as sites can be, each planned and verified within a time limit.
+"""Sites that are as hard as sites can be, each planned and verified within a time limit, or refused at
+once where the program's own estimate is beyond it.
 
 Prints one table (Markdown): a row per scene. Figures are from the run's summary.json, processor time
 and memory from the operating system, over the whole process. A run that is refused says why below.
@@ -143,7 +144,8 @@ def row(name, count, args, folder):
     job.write_text(JOB.format(cell_m=cell_m, range_m=range_m))
     out = folder / "run"
     code, said, wall_s, cpu_s, peak_mb = timed(
-        [args.program, "run", job, "--out", out, "--threads", args.threads, "-q", *args.more],
+        [args.program, "run", job, "--out", out, "--threads", args.threads, "-q", "--time",
+         f"{args.limit_s}s", *args.more],
         args.limit_s)
     cells = [f"{count:,} {what}"]
     why = ""
