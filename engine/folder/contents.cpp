@@ -6,6 +6,7 @@
 
 #include "io/exports/outputs.h"
 #include "io/tables/coverage_file.h"
+#include "io/tables/site_store.h"
 #include "kernels/error.h"
 
 namespace vfplan {
@@ -106,7 +107,7 @@ void refuse_links(const fs::path& folder) {
         }
     }
     if (!need_folder(folder / "work")) return;
-    need_file(folder / "work" / "site.h5");
+    need_file(site_store_path(folder));
     for (const std::string& tiles : names_in(folder / "work")) {
         if (!is_tiles_folder(tiles)) continue;
         need_folder(folder / "work" / tiles);

@@ -102,7 +102,7 @@ constexpr double passing_shards_mb = 0.006;  // of all phases
 double shards_s(const Layout& layout, double range_m) {
     constexpr double write_s = 0.03;  // through all phases
     constexpr double read_s = 3e-4;
-    const double margin = range_m / layout.grid.cell_m + 48;
+    const double margin = range_m / layout.grid.cell_m + skeleton_margin_cells;
     const auto read_along = [&](std::int32_t cells) {
         return std::ceil(std::min<double>(cells, layout.tile_cells + 2 * margin) /
                          layout.tile_cells);

@@ -28,8 +28,8 @@ struct Estimate {
 
 // Reads the site and makes the tables of a part of it (engine/job/sample.h), in a folder for
 // temporary files that is gone afterwards. Beyond reading the site that takes a few seconds of
-// processor time, whatever the job. Throws as a run
-// would, before it begins to work; Stopped within a second or two of a signal.
+// processor time, whatever the job. Throws as a run would, before it begins to work; Stopped within
+// a second or two of a signal.
 Estimate estimate(const Config& config, const JobOptions& options, Progress& progress);
 
 // Warns of what the machine, or the disk under `out`, has not enough of.

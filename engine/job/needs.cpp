@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/tables/skeleton.h"
 #include "kernels/error.h"
 
 namespace vfplan {
@@ -49,7 +50,8 @@ void check_memory(const GroundOptions& o, const Layout& layout, std::int64_t pie
         fmt::format("take field.cell_m = {} or more, or a shorter range", side_for(5 * patch)));
 
     // A tile with a range around it, while its skeleton is found: field, domain, distance, state.
-    const double window = layout.largest_window_cells(std::ceil(o.range_max_m / o.cell_m) + 48);
+    const double window =
+        layout.largest_window_cells(std::ceil(o.range_max_m / o.cell_m) + skeleton_margin_cells);
     refuse_above(
         18 * window,
         fmt::format("field.tile_cells = {}: a tile of {:.3g} cells with scanner.range_max_m = {} "

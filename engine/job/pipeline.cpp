@@ -24,6 +24,7 @@
 #include "io/exports/outputs.h"
 #include "io/files.h"
 #include "io/tables/plan_file.h"
+#include "io/tables/site_store.h"
 #include "kernels/coverage.h"
 #include "kernels/error.h"
 
@@ -185,7 +186,7 @@ void check_overlap(const Config& tables, const Config& plan, const std::filesyst
 
 bool has_begun(const RunDir& dir, bool fresh) {
     std::error_code ignored;
-    return !fresh && (std::filesystem::exists(dir.path() / "work" / "site.h5", ignored) ||
+    return !fresh && (std::filesystem::exists(site_store_path(dir.path()), ignored) ||
                       std::filesystem::exists(dir.file(coverage_name), ignored));
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/joining/paths.h"
+#include "engine/tables/skeleton.h"
 
 namespace vfplan {
 namespace {
@@ -34,7 +35,7 @@ double cell_cost(const std::string& phase, const Layout& layout, double range_m)
                       std::min(layout.patch_cells, layout.grid.ny));
         return 1 + read * std::pow(patch / layout.tile_cells, 2);
     }
-    if (phase == "skeleton") return with_margin(layout, range_cells + 48);
+    if (phase == "skeleton") return with_margin(layout, range_cells + skeleton_margin_cells);
     if (phase == "paths") return with_margin(layout, paths_reach_ranges * range_cells);
     // For each piece all cells in sight are looked at.
     if (phase == "rescues" || phase == "site" || phase == "tables") return 1;

@@ -122,7 +122,7 @@ void make_tables(const TableOptions& of_job, const std::filesystem::path& dir,
                  const std::string& key, const Threads& threads, const Ranks& ranks,
                  Progress& progress) {
     ranks.lead([&] { make_shard_folders(dir, of_job.tile_cells); });
-    const SiteStore site(dir / "work" / "site.h5", of_job.tile_cells);
+    const SiteStore site(site_store_path(dir), of_job.tile_cells);
     TableOptions options = of_job;
     options.required = site.facts().required;
     options.existing = site.facts().existing;

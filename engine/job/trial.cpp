@@ -45,9 +45,9 @@ Trial try_part(const GroundOptions& ground, const TableOptions& options, const S
     Progress quiet(true);
     make_shard_folders(folder.path(), options.tile_cells);
     quiet.stage("site");
-    store_site(ground, key, part, {}, threads, folder.path() / "work" / "site.h5", true);
+    store_site(ground, key, part, {}, threads, site_store_path(folder.path()), true);
 
-    const SiteStore site(folder.path() / "work" / "site.h5", options.tile_cells);
+    const SiteStore site(site_store_path(folder.path()), options.tile_cells);
     const int scenes_kept = 8 + 8 * threads.count();
     Scenes scenes(
         site.layout(), [&](std::int64_t patch) { return site.patch(patch); }, options.scenes,

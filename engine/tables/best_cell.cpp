@@ -23,9 +23,9 @@ struct Option {
     float vf;
     std::int64_t cell;  // of the whole grid
 
-    // The better ones first: inside the domain, with the greatest VF.
+    // Less good than b: best are those inside the domain, with the greatest VF.
     bool operator<(const Option& b) const {
-        return std::tuple(!domain, -vf, cell) < std::tuple(!b.domain, -b.vf, b.cell);
+        return std::tuple(domain, vf, -cell) < std::tuple(b.domain, b.vf, -b.cell);
     }
 };
 
@@ -145,9 +145,8 @@ BestCell best_cell(const TableJob& job, const Scene& scene, const FieldWindow& f
         return true;
     };
     // Most cells are never asked whether they see the piece: a heap gives the best one by one.
-    const auto worse = [](const Option& a, const Option& b) { return b < a; };
     std::vector<Option> open = in_sight.options(field, threshold_rad);
-    std::make_heap(open.begin(), open.end(), worse);
+    std::make_heap(open.begin(), open.end());
     std::vector<std::int64_t> partly;
     const auto one_of_partly = [&] {
         for (const std::int64_t cell : std::exchange(partly, {})) {
@@ -158,7 +157,7 @@ BestCell best_cell(const TableJob& job, const Scene& scene, const FieldWindow& f
     };
     bool domain = true;
     while (!open.empty() && tests < tests_most) {
-        std::pop_heap(open.begin(), open.end(), worse);
+        std::pop_heap(open.begin(), open.end());
         const Option o = open.back();
         open.pop_back();
         if (domain && !o.domain) {

@@ -68,7 +68,6 @@ FieldWindow field_around(const TableJob& job, const FieldTiles& tiles, const Win
 
 // One cell often serves many pieces. Takes cells in the order of pieces, and looks for none where a
 // piece is covered by then.
-
 RescueTile rescues_of_tile(const TableJob& job, const SiteStore& site, const FieldTiles& tiles,
                            double threshold_rad, const CoveredPieces& covered, std::int64_t tile) {
     const Layout& layout = job.layout();

@@ -213,7 +213,7 @@ void make_site(const GroundOptions& options, const std::filesystem::path& dir,
                const std::string& key, const Threads& threads, Progress& progress,
                const std::function<void(const Site&, const Layout&)>& may_begin,
                const std::function<void()>& may_store) {
-    const std::filesystem::path file = dir / "work" / "site.h5";
+    const std::filesystem::path file = site_store_path(dir);
     if (have_shard(file, key, progress)) return;
     {
         const Site site = read_ground(options, threads, progress);

@@ -7,9 +7,6 @@
 namespace vfplan {
 namespace {
 
-// Walls are nearer than the range to every cell of the domain.
-constexpr std::int32_t beyond = 48;
-
 // The skeleton cells of a window; false when what lies around it was too little to tell.
 bool thin_window(const Threads& threads, const FieldTiles& tiles, double threshold_rad,
                  const Window& core, const Window& around, SkeletonCells& out) {
@@ -48,7 +45,7 @@ bool thin_window(const Threads& threads, const FieldTiles& tiles, double thresho
 
 double skeleton_task_bytes(const Layout& layout, double range_cells) {
     constexpr double cell_bytes = 32;  // field, domain, distances, states and what waits in line
-    return cell_bytes * layout.largest_window_cells(range_cells + beyond);
+    return cell_bytes * layout.largest_window_cells(range_cells + skeleton_margin_cells);
 }
 
 SkeletonTiles make_skeleton(const TableJob& job, const FieldTiles& field, double threshold_rad) {
@@ -59,7 +56,8 @@ SkeletonTiles make_skeleton(const TableJob& job, const FieldTiles& field, double
         [&](std::int64_t tile, const std::filesystem::path& path) {
             const Window core = layout.tile_window(tile);
             SkeletonCells cells;
-            std::int32_t margin = job.range_cells() + beyond;
+            // Walls are nearer than the range to every cell of the domain.
+            std::int32_t margin = job.range_cells() + skeleton_margin_cells;
             while (!thin_window(job.threads, field, threshold_rad, core,
                                 core.grown(margin, layout.grid), cells)) {
                 margin *= 2;

@@ -7,6 +7,9 @@
 
 namespace vfplan {
 
+// Cells beyond the scanner's range that a tile is thinned with, at first.
+inline constexpr std::int32_t skeleton_margin_cells = 48;
+
 // What a tile holds while it is thinned; `range_cells`: the scanner's range.
 double skeleton_task_bytes(const Layout& layout, double range_cells);
 

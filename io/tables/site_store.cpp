@@ -32,6 +32,10 @@ std::vector<Vec2d> points(const std::vector<double>& flat) {
 
 }  // namespace
 
+std::filesystem::path site_store_path(const std::filesystem::path& dir) {
+    return dir / "work" / "site.h5";
+}
+
 void write_site_store(const std::filesystem::path& path, const std::string& key,
                       const Layout& layout, const SiteFacts& facts, const std::vector<Wall>& walls,
                       const Pieces& pieces, const NearWalls& near,

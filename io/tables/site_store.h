@@ -12,6 +12,9 @@
 
 namespace vfplan {
 
+// Where it lies in a run directory.
+std::filesystem::path site_store_path(const std::filesystem::path& dir);
+
 // The cells of a patch where a station may stand, a bit each, row by row.
 using CellBits = std::vector<std::uint8_t>;
 

@@ -8,20 +8,6 @@
 namespace vfplan::test {
 namespace {
 
-// Class, type of geometry and coordinates of each feature.
-using Features = std::vector<std::array<const char*, 3>>;
-
-std::string geojson(const Features& features) {
-    std::string out = R"({"type":"FeatureCollection","features":[)";
-    for (std::size_t i = 0; i < features.size(); ++i) {
-        const auto& [cls, type, coordinates] = features[i];
-        out += fmt::format(
-            R"({}{{"type":"Feature","properties":{{"class":"{}"}},"geometry":{{"type":"{}","coordinates":{}}}}})",
-            i > 0 ? "," : "", cls, type, coordinates);
-    }
-    return out + "]}";
-}
-
 struct Plan {
     const char* name;
     Features features;

@@ -33,6 +33,18 @@ std::string job(const Scratch& scratch, const std::vector<std::string>& features
                                          ("[field]\ncell_m = 0.5\n" + more));
 }
 
+// A run and its dry run alike end with code 2 and these words, and leave nothing.
+void expect_refused(const Scratch& scratch, const Words& job, const Words& words) {
+    for (const char* last : {"--dry-run", "--quiet"}) {
+        Words all = {"run", "--out", scratch / "out", last};
+        all.insert(all.end(), job.begin(), job.end());
+        const Output o = vfplan_process(all);
+        EXPECT_EQ(o.code, 2) << o.err;
+        expect_words(o.err, words);
+        EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+    }
+}
+
 TEST(DryRun, NamesWhatLiesFarOffAndEndsAllTheSame) {
     const Scratch scratch;
     for (const double far : {5e4, 1e6}) {
@@ -52,18 +64,10 @@ TEST(DryRun, NamesWhatLiesFarOffAndEndsAllTheSame) {
 TEST(DryRun, RefusesWhatRunRefuses) {
     const Scratch scratch;
     const std::string file = job(scratch, {house(0, 0), house(9e4, 9e4)});
-    const auto refused = [&](const Words& more, const std::vector<std::string>& words) {
-        for (const char* last : {"--dry-run", "--quiet"}) {
-            Words all = {"run", file, "--out", scratch / "out", last};
-            all.insert(all.end(), more.begin(), more.end());
-            const Output o = vfplan_process(all);
-            EXPECT_EQ(o.code, 2) << o.err;
-            expect_words(o.err, words);
-            EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
-        }
-    };
-    refused({"--set", "field.cell_m=0.1"}, {"can be numbered", "site.crop_m"});
-    refused({"--set", "coverage.partition_m=1e-9"}, {"pieces of wall", "can be numbered"});
+    expect_refused(scratch, {file, "--set", "field.cell_m=0.1"},
+                   {"can be numbered", "site.crop_m"});
+    expect_refused(scratch, {file, "--set", "coverage.partition_m=1e-9"},
+                   {"pieces of wall", "can be numbered"});
 }
 
 // A limit of the shell is as good as a small machine.
@@ -125,20 +129,14 @@ TEST(DryRun, EndsAtASignal) {
 TEST(DryRun, MemoryAndTimeThatAreGrantedAreHeldAgainstTheEstimate) {
     const Scratch scratch;
     const std::string file = job(scratch, {house(0, 0), house(20, 3), house(5, 30)});
-    const auto refused = [&](const Words& grant, const std::vector<std::string>& words) {
-        for (const char* last : {"--dry-run", "--quiet"}) {
-            Words all = {"run", file, "--out", scratch / "out", last, "--set", "field.cell_m=0.02"};
-            all.insert(all.end(), grant.begin(), grant.end());
-            const Output o = vfplan_process(all);
-            EXPECT_EQ(o.code, 2) << o.err;
-            expect_words(o.err, words);
-            EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
-        }
+    const auto refused = [&](const char* option, const char* grant,
+                             const std::vector<std::string>& words) {
+        expect_refused(scratch, {file, "--set", "field.cell_m=0.02", option, grant}, words);
     };
-    refused({"--memory", "64M"}, {"--memory grants 0.067", "take"});
-    refused({"--time", "0.01s"}, {"the job takes about", "--time grants 0.01 s", "take"});
-    refused({"--memory", "1K"}, {"--memory: at least 64M"});
-    refused({"--time", "4 weeks"}, {"--time", "weeks"});
+    refused("--memory", "64M", {"--memory grants 0.067", "take"});
+    refused("--time", "0.01s", {"the job takes about", "--time grants 0.01 s", "take"});
+    refused("--memory", "1K", {"--memory: at least 64M"});
+    refused("--time", "4 weeks", {"--time", "weeks"});
     vfplan_expect(
         0, {"run", file, "--out", scratch / "granted", "-q", "--memory", "1.5g", "--time", "2h"});
     vfplan_expect(0, {"run", file, "--out", scratch / "free", "-q"});

@@ -38,8 +38,8 @@ def limited(which, value, user=None):
 
 
 class Limits:
-    def __init__(self, program, job, folder):
-        self.program, self.job, self.folder = program, job, folder
+    def __init__(self, program, job, folder, step):
+        self.program, self.job, self.folder, self.step = program, job, folder, step
         self.run("whole", None)
 
     def run(self, out, prepare, more=()):
@@ -91,12 +91,12 @@ class Limits:
         if not ends.count(4) or not ends.count(0):
             raise Trouble(f"{what}: the limit was never met, or never wide enough")
 
-    def memory(self, step):
-        self.sweep("memory", resource.RLIMIT_AS, (k * step * MB for k in range(1, 4000)), 3)
+    def memory(self):
+        self.sweep("memory", resource.RLIMIT_AS, (k * self.step * MB for k in range(1, 4000)), 3)
 
-    def given(self, step):
+    def given(self):
         ends = []
-        for mb in range(64, 100_000, step):
+        for mb in range(64, 100_000, self.step):
             shutil.rmtree(os.path.join(self.folder, "run"), ignore_errors=True)
             done = self.run("run", limited(None, 0), ["--memory", f"{mb}M"])
             what = f"--memory {mb}M"
@@ -174,12 +174,10 @@ def main():
 
     def trial(folder):
         job = args.job or small_city(args.program, folder)
-        limits = Limits(os.path.abspath(args.program), os.path.abspath(job), folder)
+        limits = Limits(os.path.abspath(args.program), os.path.abspath(job), folder,
+                        args.step)
         for name in args.only.split(","):
-            if name in ("memory", "given"):
-                getattr(limits, name)(args.step)
-            else:
-                getattr(limits, name)()
+            getattr(limits, name)()
 
     return in_folder("limits", trial)
 

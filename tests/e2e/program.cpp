@@ -1,6 +1,7 @@
 #include "program.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -253,6 +254,17 @@ void flip_a_bit(const Path& file, double where) {
     const auto i = static_cast<std::size_t>(where * static_cast<double>(bytes.size() - 1));
     bytes[i] = static_cast<char>(bytes[i] ^ 1);
     std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+std::string geojson(const Features& features) {
+    std::string out = R"({"type":"FeatureCollection","features":[)";
+    for (std::size_t i = 0; i < features.size(); ++i) {
+        const auto& [cls, type, coordinates] = features[i];
+        out += fmt::format(
+            R"({}{{"type":"Feature","properties":{{"class":"{}"}},"geometry":{{"type":"{}","coordinates":{}}}}})",
+            i > 0 ? "," : "", cls, type, coordinates);
+    }
+    return out + "]}";
 }
 
 std::string generated(const Scratch& scratch, const std::string& kind, const Words& more) {

@@ -1,6 +1,7 @@
 // The built program as a person runs it: a process, a scratch folder, and the files it leaves.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -86,6 +87,9 @@ std::string generated(const Scratch& scratch, const std::string& kind, const Wor
 // A job file of the repository.
 std::string config_file(const std::string& name);
 std::string data_file(const std::string& name);
+// Class, type of geometry and coordinates of each feature.
+using Features = std::vector<std::array<std::string, 3>>;
+std::string geojson(const Features& features);
 // Moves every coordinate of a GeoJSON text.
 std::string shifted(const std::string& geojson, double dx, double dy);
 

@@ -1,4 +1,6 @@
 // Tiles are portions of work only: any side, any number of threads, one result.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "io/tables/coverage_file.h"
@@ -27,39 +29,40 @@ void expect_same_field(const Path& a, const Path& b) {
 // Walls from one point outwards, which only cells between them see: many are rescued, in tiles that
 // are smaller than the range.
 std::string star(const Scratch& scratch) {
-    std::string all;
+    Features walls;
     for (int k = 0; k < 150; ++k) {
         const double a = 2 * M_PI * k / 150;
         const double r = 20 + k * 37 % 41;
-        all += (k > 0 ? "," : "") +
-               (R"({"type":"Feature","properties":{"class":"wall"},"geometry":{"type":)"
-                R"("LineString","coordinates":[[0,0],[)" +
-                std::to_string(r * std::cos(a)) + "," + std::to_string(r * std::sin(a)) + "]]}}");
+        walls.push_back({"wall", "LineString",
+                         fmt::format("[[0,0],[{:.6f},{:.6f}]]", r * std::cos(a), r * std::sin(a))});
     }
-    return scratch.write("star.geojson",
-                         R"({"type":"FeatureCollection","units":"m","features":[)" + all + "]}");
+    return scratch.write("star.geojson", geojson(walls));
 }
 
-class Tiles : public ::testing::TestWithParam<const char*> {};
+struct Kind {
+    const char* name;
+    const char* preset;
+    const char* cell_m;
+    const char* range_m;
+};
+
+void PrintTo(const Kind& k, std::ostream* out) { *out << k.name; }
+
+class Tiles : public ::testing::TestWithParam<Kind> {};
 
 TEST_P(Tiles, SidesAndThreadsDoNotMatter) {
     const Scratch scratch;
-    const std::string kind = GetParam();
-    const bool city = kind == "city";
+    const auto& [name, preset, cell_m, range_m] = GetParam();
+    const std::string kind = name;
     const std::string site =
-        kind == "star" ? star(scratch)
-                       : generated(scratch, kind, city ? Words{"--size-km", "0.5"} : Words{});
+        kind == "star"
+            ? star(scratch)
+            : generated(scratch, kind, kind == "city" ? Words{"--size-km", "0.5"} : Words{});
     const std::string job = scratch.write(
-        "job.toml", "preset = \"" + std::string(kind == "flat" ? "indoor" : "outdoor") +
-                        "\"\n[site]\ninput = \"" + site + "\"\n[field]\ncell_m = " +
-                        (city             ? "1.5"
-                         : kind == "star" ? "1"
-                                          : "0.05") +
-                        "\n[scanner]\nrange_max_m = " +
-                        (city             ? "25"
-                         : kind == "star" ? "40"
-                                          : "3") +
-                        "\n[output]\nformats = [\"csv\", \"geojson\"]\n");
+        "job.toml", fmt::format("preset = \"{}\"\n[site]\ninput = \"{}\"\n[field]\ncell_m = {}\n"
+                                "[scanner]\nrange_max_m = {}\n[output]\n"
+                                "formats = [\"csv\", \"geojson\"]\n",
+                                preset, site, cell_m, range_m));
     const auto run = [&](const std::string& dir, const std::string& side, const char* threads) {
         vfplan_expect(0, {"run", job, "--out", scratch / dir, "--quiet", "--threads", threads,
                           "--set", "field.tile_cells=" + side});
@@ -73,10 +76,10 @@ TEST_P(Tiles, SidesAndThreadsDoNotMatter) {
         SCOPED_TRACE(std::string("tiles of ") + side + ", threads " + threads);
         EXPECT_EQ(read_json(first / "summary.json")["result_sha256"],
                   read_json(other / "summary.json")["result_sha256"]);
-        for (const char* name :
+        for (const char* file :
              {"coverage.h5", "shards/coverage-00000.h5", "pool.h5", "shards/pool-00000.h5",
               "plan.h5", "stations.csv", "stations.geojson", "links.csv", "pieces.csv"}) {
-            EXPECT_EQ(read_bytes(first / name), read_bytes(other / name)) << name;
+            EXPECT_EQ(read_bytes(first / file), read_bytes(other / file)) << file;
         }
         expect_same_field(first, other);
         if (std::string(side) == "256") expect_same_bytes(first, other);
@@ -85,8 +88,11 @@ TEST_P(Tiles, SidesAndThreadsDoNotMatter) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sites, Tiles, ::testing::Values("city", "flat", "star"),
-                         [](const auto& i) { return std::string(i.param); });
+INSTANTIATE_TEST_SUITE_P(Sites, Tiles,
+                         ::testing::Values(Kind{"city", "outdoor", "1.5", "25"},
+                                           Kind{"flat", "indoor", "0.05", "3"},
+                                           Kind{"star", "outdoor", "1", "40"}),
+                         [](const auto& i) { return std::string(i.param.name); });
 
 // The tables of a run may be replanned and verified whatever the tiles of the job at hand.
 TEST(TilesTest, AnotherSideInAFinishedFolderChangesNothing) {

@@ -271,19 +271,16 @@ TEST_F(Verify, DamagedOrMissingFilesAreNamed) {
 // one there is rounding's to say: GEOS has other lengths, and both are right.
 TEST(VerifySite, WallsThatCrossInOnePointHold) {
     const Scratch scratch;
-    std::string all;
+    Features walls;
     for (int k = 0; k < 400; ++k) {
         const double angle = M_PI * k / 400;
         const double r = 10 + k * 37 % 41;
         const double x = r * std::cos(angle);
         const double y = r * std::sin(angle);
-        all += fmt::format(
-            R"({}{{"type":"Feature","properties":{{"class":"wall"}},"geometry":{{)"
-            R"("type":"LineString","coordinates":[[{:.3f},{:.3f}],[{:.3f},{:.3f}]]}}}})",
-            k > 0 ? "," : "", x, y, -x, -y);
+        walls.push_back(
+            {"wall", "LineString", fmt::format("[[{:.3f},{:.3f}],[{:.3f},{:.3f}]]", x, y, -x, -y)});
     }
-    scratch.write("site.geojson",
-                  R"({"type":"FeatureCollection","units":"m","features":[)" + all + "]}");
+    scratch.write("site.geojson", geojson(walls));
     const std::string job = scratch.write(
         "job.toml",
         "preset = \"outdoor\"\n[site]\ninput = \"site.geojson\"\n[field]\ncell_m = 1\n[scanner]\n"
